@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::trajectory {
+
+/// One polynomial of a path and the interval of goal time it is valid on.
+struct Piece {
+  GoalTime start{0.0};
+  GoalTime end{0.0};
+  Polynomial polynomial;  ///< in seconds since `start`
+
+  GoalTime duration() const { return end - start; }
+};
+
+/// The motion of one joint over goal time: contiguous polynomial pieces, continuous in position and velocity. Before its
+/// first and after its last piece the joint rests at the path's first and last position.
+class Path {
+ public:
+  /// A path without pieces that rests at `position` for ever.
+  explicit Path(double position = 0.0) : rest_(position) {}
+
+  /// `pieces` must be contiguous (each starts where the one before ends) and each longer than 0 s.
+  explicit Path(std::vector<Piece> pieces);
+
+  bool empty() const { return pieces_.empty(); }
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  GoalTime start_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.front().start; }
+  GoalTime end_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.back().end; }
+
+  /// Position, velocity and acceleration at `time`; at a knot, those of the piece that begins there.
+  State sample(GoalTime time) const;
+
+  /// Where the joint rests after the end.
+  double final_position() const;
+
+  /// Index of the piece that holds `time`, searched from `hint` (the index returned last) so that a sweep is O(1) a step.
+  /// `time` must be within [start_time(), end_time()] and the path not empty.
+  std::size_t piece_index(GoalTime time, std::size_t hint = 0) const;
+
+ private:
+  std::vector<Piece> pieces_;
+  double rest_ = 0.0;
+};
+
+}  // namespace interpolated_motion::trajectory
