@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/snapshot.h"
+#include "interpolated_motion_driver/protocol/canopen/frame.h"
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::hardware {
+
+/// A named joint as ros_control hands it out: pointers that stay valid as long as the hardware lives.
+struct JointHandle {
+  std::string name;
+  const double* position = nullptr;  ///< rad, actual
+  const double* velocity = nullptr;  ///< rad/s, actual
+  const double* demand = nullptr;    ///< rad, the drive's demand
+};
+
+/// The whole driver below ROS: buses, axes and the motion group of one configuration, with emulated drives where the
+/// configuration asks for them. Not thread-safe: one thread owns it. Nothing blocks and no clock is read; it lives on the
+/// times it is given, so it runs in virtual time as well as in real time.
+///
+/// Typical loop: `update(now)`, take results, sleep until `next_deadline()` (at most a few ms), again.
+class MotionHardware {
+ public:
+  /// Composes everything; drives are looked for from `now` on. Throws std::invalid_argument, std::runtime_error (a bus that
+  /// cannot be opened).
+  MotionHardware(const Configuration& configuration, HostTime now);
+  ~MotionHardware();
+  MotionHardware(const MotionHardware&) = delete;
+  MotionHardware& operator=(const MotionHardware&) = delete;
+
+  /// As hardware_interface::RobotHW: takes everything that has happened on the buses until `now`.
+  void read(HostTime now, HostDuration period);
+  /// As hardware_interface::RobotHW: sends what is due at `now`.
+  void write(HostTime now, HostDuration period);
+  /// read() and write() at `now`; with emulated drives, everything in between happens at its own time.
+  void update(HostTime now);
+  /// When update() should be called next at the latest.
+  HostTime next_deadline() const;
+
+  const std::vector<JointHandle>& joints() const;
+
+  /// Takes a goal, or says why not. Replaces the goal that is under way, which then ends as Preempted. A goal without points
+  /// and with the right joints is a stop. Never called from within update().
+  Expected<motion::GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
+  /// Stops the goal, if it is still under way; it ends as Preempted.
+  void cancel(motion::GoalId goal, HostTime now);
+  /// The next goal that has ended, oldest first.
+  std::optional<motion::GoalResult> take_goal_result();
+
+  /// Requests take time; each ends with one RequestResult.
+  motion::RequestId enable(bool on, HostTime now);
+  motion::RequestId reset_faults(HostTime now);
+  motion::RequestId halt(HostTime now);           ///< stops the group at once by the drives' own deceleration
+  motion::RequestId clear_buffers(HostTime now);  ///< stops the group, then empties every FIFO
+  std::optional<motion::RequestResult> take_request_result();
+
+  /// A consistent view of everything published, as of the last update(). `out` is reused to avoid allocation.
+  void snapshot(motion::Snapshot& out) const;
+  /// Figures of the last goal that moved.
+  motion::MotionReport report() const;
+  /// The committed trajectory at `time`, per joint. False when `time` is before the start of the trajectory in force.
+  bool query(HostTime time, std::vector<trajectory::State>& out) const;
+
+  /// Text for the log that arose since the last call: severity and sentence.
+  enum class Severity { Debug, Info, Warning, Error };
+  struct LogEntry {
+    Severity severity = Severity::Info;
+    std::string text;
+  };
+  std::optional<LogEntry> take_log();
+
+  /// `observer` is called with every frame seen on any CAN bus, in the order of the wire.
+  void set_wire_observer(std::function<void(const std::string& bus, const canopen::ReceivedFrame&)> observer);
+
+  /// Switches faults of the emulated drive of `joint` on, for tests and demos: "emcy CODE", "power_cycle SECONDS",
+  /// "stall 0|1", "silence 0|1". False with a reason when the joint is not emulated or the command is unknown.
+  bool inject(const std::string& joint, const std::string& command, std::string* reason, HostTime now);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace interpolated_motion::hardware

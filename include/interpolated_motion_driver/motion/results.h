@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::motion {
+
+/// Names an accepted goal; never reused within a process. 0 names none.
+using GoalId = std::uint64_t;
+
+/// What the group answers when it takes a goal.
+struct GoalAcceptance {
+  GoalId id = 0;
+  GoalTime duration{0.0};             ///< from the start of motion to the last waypoint, lead-in included
+  std::vector<std::string> warnings;  ///< e.g. points dropped because they lie in the past
+};
+
+enum class GoalOutcome {
+  Succeeded,  ///< the last waypoint was reached and every joint settled within its goal tolerance
+  Preempted,  ///< cancelled, or replaced by a newer goal; the group was brought to rest
+  Aborted,    ///< a fault, a tolerance, or a goal that turned out impossible; the group was brought to rest
+};
+
+/// How an accepted goal ended. Reported once, when the motion has ended.
+struct GoalResult {
+  GoalId id = 0;
+  GoalOutcome outcome = GoalOutcome::Succeeded;
+  GoalError code = GoalError::InvalidGoal;  ///< only for Aborted
+  std::string text;                         ///< for the user; may be empty for Succeeded
+};
+
+/// Names a request (enable, reset, halt, clear) that takes time.
+using RequestId = std::uint64_t;
+
+/// How a request ended.
+struct RequestResult {
+  RequestId id = 0;
+  bool success = false;
+  std::string message;  ///< what was done, or what prevented it and what to do
+};
+
+}  // namespace interpolated_motion::motion

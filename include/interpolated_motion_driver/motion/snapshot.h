@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::motion {
+
+/// Everything that is published of one joint, at one instant.
+struct JointSnapshot {
+  std::string joint;
+  std::string bus;
+
+  trajectory::State desired;  ///< the committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2)
+  trajectory::State actual;   ///< as the drive reports; no acceleration
+
+  bool online = false;              ///< the drive answers and its heartbeat arrives
+  std::string state;                ///< CiA 402 state, or its SilverLode equal, as text
+  std::uint16_t statusword = 0;     ///< CiA 402 statusword 0x6041
+  std::int8_t mode = 0;             ///< modes of operation display 0x6061
+  double demand_position = 0.0;     ///< rad, the drive's own demand value
+  double following_error = 0.0;     ///< rad, demand minus actual
+  std::uint16_t error_code = 0;     ///< last EMCY error code since the last reset, 0 none
+  std::string error_text;
+
+  std::uint32_t capacity = 0;        ///< records the FIFO holds
+  std::uint32_t fill = 0;            ///< records in the FIFO, estimated from time and corrected by the drive's reports
+  double fill_time = 0.0;            ///< s of motion left in the FIFO
+  bool underflow_warning = false;
+  bool overflow_warning = false;
+  bool velocity_warning = false;
+  bool acceleration_warning = false;
+  std::uint32_t underruns = 0;       ///< since start of the driver
+  std::uint32_t overflows = 0;
+  std::uint32_t refused_writes = 0;  ///< records the drive did not take
+  std::uint64_t records_sent = 0;
+  double clock_error_ppm = 0.0;      ///< estimated error of the drive's clock against the host's
+};
+
+struct BusSnapshot {
+  std::string name;
+  double load = 0.0;             ///< 0..1, over the last second
+  std::uint64_t frames_sent = 0;
+  std::uint64_t frames_received = 0;
+  std::uint64_t unexpected = 0;  ///< frames nobody was waiting for
+};
+
+enum class GroupState {
+  Starting,   ///< drives are being found and configured
+  Disabled,   ///< drives answer, power stages off
+  Enabling,
+  Idle,       ///< enabled, at rest, ready for a goal
+  Preparing,  ///< a goal is being loaded into the drives
+  Moving,
+  Settling,   ///< the records are played; waiting for the joints to be within their goal tolerances
+  Stopping,
+  Fault,      ///< a drive is in fault or lost; ~reset_faults, then ~enable
+};
+
+const char* to_string(GroupState state);
+
+/// One consistent view of the whole driver.
+struct Snapshot {
+  HostTime time{};
+  GroupState state = GroupState::Starting;
+  std::string fault;        ///< why the group is in Fault; empty otherwise
+  GoalId active_goal = 0;   ///< 0 when none
+  GoalTime goal_time{0.0};  ///< of the active goal, on the play-back clock; time_from_start of `desired`
+  GoalTime goal_duration{0.0};
+  std::vector<JointSnapshot> joints;
+  std::vector<BusSnapshot> buses;
+};
+
+/// Figures of the last goal that moved, for `scripts/demo` and for benches.
+struct JointReport {
+  std::string joint;
+  std::string bus;
+  std::uint64_t records_sent = 0;
+  std::uint32_t minimum_fill = 0;    ///< records, while interpolating and more were to come
+  std::uint32_t underruns = 0;
+  std::uint64_t samples = 0;         ///< drive samples compared (0: the drive is not emulated)
+  double worst_deviation = 0.0;      ///< counts: drive's demand against the goal's polynomial, over all drive samples
+  double final_deviation = 0.0;      ///< counts, at the last sample
+};
+
+struct MotionReport {
+  bool valid = false;  ///< false before the first goal has moved
+  GoalId goal = 0;
+  GoalTime duration{0.0};
+  std::vector<JointReport> joints;
+  std::vector<std::pair<std::string, double>> peak_bus_load;  ///< per bus: name, 0..1
+};
+
+}  // namespace interpolated_motion::motion
