@@ -9,8 +9,8 @@
 
 namespace interpolated_motion::trajectory {
 
-/// One point of a goal, as in trajectory_msgs/JointTrajectoryPoint: values in the order of the goal's joint names. Empty
-/// vectors mean that the goal does not say.
+/// One point of a goal, as in trajectory_msgs/JointTrajectoryPoint: values in the order of the goal's joint
+/// names. Empty vectors mean that the goal does not say.
 struct Waypoint {
   GoalTime time{0.0};  ///< since the start of the trajectory
   std::vector<double> positions;
@@ -19,7 +19,8 @@ struct Waypoint {
   std::vector<double> efforts;
 };
 
-/// As control_msgs/JointTolerance: a positive value sets the tolerance, 0 keeps the default, a negative one erases it.
+/// As control_msgs/JointTolerance: a positive value sets the tolerance, 0 keeps the default, a negative one
+/// erases it.
 struct JointTolerance {
   std::string joint;
   double position = 0.0;

@@ -17,14 +17,15 @@ struct Piece {
   GoalTime duration() const { return end - start; }
 };
 
-/// The motion of one joint over goal time: contiguous polynomial pieces, continuous in position and velocity. Before its
-/// first and after its last piece the joint rests at the path's first and last position.
+/// The motion of one joint over goal time: contiguous polynomial pieces, continuous in position and velocity.
+/// Before its first and after its last piece the joint rests at the path's first and last position.
 class Path {
  public:
   /// A path without pieces that rests at `position` for ever.
   explicit Path(double position = 0.0) : rest_(position) {}
 
-  /// `pieces` must be contiguous (each starts where the one before ends) and each longer than 0 s.
+  /// `pieces` must be one or more, contiguous (each starts exactly where the one before ends) and each longer
+  /// than 0 s. Throws std::invalid_argument with piece and times otherwise.
   explicit Path(std::vector<Piece> pieces);
 
   bool empty() const { return pieces_.empty(); }
@@ -32,14 +33,15 @@ class Path {
   GoalTime start_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.front().start; }
   GoalTime end_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.back().end; }
 
-  /// Position, velocity and acceleration at `time`; at a knot, those of the piece that begins there.
+  /// Position, velocity and acceleration at `time`; at a knot, those of the piece that begins there, at
+  /// end_time() those of the last piece.
   State sample(GoalTime time) const;
 
   /// Where the joint rests after the end.
   double final_position() const;
 
-  /// Index of the piece that holds `time`, searched from `hint` (the index returned last) so that a sweep is O(1) a step.
-  /// `time` must be within [start_time(), end_time()] and the path not empty.
+  /// Index of the piece that holds `time`, searched from `hint` (the index returned last) so that a sweep is
+  /// O(1) a step. `time` must be within [start_time(), end_time()] and the path not empty.
   std::size_t piece_index(GoalTime time, std::size_t hint = 0) const;
 
  private:

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+
+namespace interpolated_motion::trajectory {
+
+/// A value of a polynomial and the local time (s) at which it occurs.
+struct Extremum {
+  double time = 0.0;
+  double value = 0.0;
+};
+
+/// Smallest and largest value over an interval; at equal values the earliest found.
+struct Range {
+  Extremum minimum;
+  Extremum maximum;
+};
+
+/// Exact range of the position, velocity or acceleration of a polynomial over local times [from, to], `from`
+/// <= `to`: the ends and every root of the derivative between them, isolated by the roots of the next
+/// derivative, so none is missed. Exact to rounding; no allocation.
+Range position_range(const Polynomial& polynomial, double from, double to);
+Range velocity_range(const Polynomial& polynomial, double from, double to);
+Range acceleration_range(const Polynomial& polynomial, double from, double to);
+
+}  // namespace interpolated_motion::trajectory

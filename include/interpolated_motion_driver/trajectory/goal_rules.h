@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/trajectory/goal.h"
+
+namespace interpolated_motion::trajectory {
+
+/// Shortest step between two points, and the time up to which a first point counts as the start. SilverLode
+/// drives have the finest time of all that are served, a servo tick of 120 us: nothing can be asked of a
+/// drive within 100 us.
+inline constexpr GoalTime kMinimumStep{1e-4};
+
+/// Largest move (rad or m) of any joint that may be dropped when two points closer than `kMinimumStep` become
+/// one: a fifth of an encoder count at 200 000 counts a turn.
+inline constexpr double kMergeDistance = 1e-6;
+
+/// A velocity (1/s) below this at the start or the end of a goal counts as rest. Planners leave 1e-7 to 1e-4
+/// there (moveit2 #3561); a drive loses 1e-3 rad/s in one sample of 1 ms at 1 rad/s^2.
+inline constexpr double kRestVelocity = 1e-3;
+
+/// An acceleration (1/s^2) below this at the start or the end of a goal counts as zero.
+inline constexpr double kRestAcceleration = 1e-3;
+
+/// What a goal is held against. The vectors have one entry per joint, in the order of `joints`.
+struct GoalRules {
+  std::vector<std::string> joints;
+  std::vector<JointLimits> limits;
+  /// How far (rad or m) the first point of a goal may be from the present position.
+  std::vector<double> start_tolerance;
+  /// Deviation (rad or m) from the first point below which no lead-in is needed, e.g. one encoder count.
+  std::vector<double> lead_in_threshold;
+  /// Accept goals that name some of the joints only; the others rest where they are.
+  bool allow_partial_joints = false;
+};
+
+}  // namespace interpolated_motion::trajectory

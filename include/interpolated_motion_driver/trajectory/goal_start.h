@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/goal_rules.h"
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::trajectory {
+
+/// Part of the limits that a lead-in uses: it should look like the careful approach it is.
+inline constexpr double kLeadInPart = 0.5;
+
+/// The part of a goal that a path is made of.
+struct PointSelection {
+  std::vector<std::size_t> columns;  ///< of every joint in the points, or `kNotNamed`
+  std::vector<std::size_t> points;   ///< indices of the points used, at least one
+  GoalTime skipped{0.0};             ///< time of the plan = time of the goal - `skipped`
+};
+
+/// How a goal gets going from rest at the present positions.
+struct GoalStart {
+  bool bridge = false;    ///< the path begins at the present positions, at 0; else at the first point
+  GoalTime lead_in{0.0};  ///< length of the move to the first point before time 0
+  std::vector<double>
+      shift;            ///< to be added to all positions of a joint: a multiple of 2 pi, 0 unless continuous
+  std::string warning;  ///< if the first point cannot be met as it is
+};
+
+/// Decides how the goal starts, by the rules of `plan_goal`. Where the first point cannot be met because it
+/// moves, it is taken out of `selection`. Refused (InvalidGoal): a first point at 0 farther from the present
+/// position than the joint's start tolerance; one that is the only point, in the words of
+/// joint_trajectory_controller, which drops it.
+Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules,
+                                        const std::vector<State>& present, PointSelection& selection);
+
+}  // namespace interpolated_motion::trajectory

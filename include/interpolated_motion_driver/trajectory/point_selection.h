@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::trajectory {
+
+/// What is left of a goal after the points in the past were dropped.
+struct FuturePoints {
+  std::size_t first = 0;  ///< index of the first point that is kept
+  GoalTime skipped{0.0};  ///< how long ago the goal's stamp was, 0 without stamp or with one to come
+  std::string warning;    ///< joint_trajectory_controller's words if points were dropped, else empty
+};
+
+/// Drops the points of a goal with a stamp that lie at or before `now`, as joint_trajectory_controller does.
+/// With no stamp nothing is dropped. `goal` must have points with increasing times. Refused (InvalidGoal) if
+/// no point is left.
+Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now);
+
+/// The refusal of joint_trajectory_controller for a goal none of whose `count` points can be reached any
+/// more, the last `late` in the past, and `sentence` after it.
+Refusal all_points_past(std::size_t count, GoalTime late, const std::string& sentence);
+
+/// Indices of the points from `first` on that a path can go through: of points closer than `kMinimumStep`
+/// (planners end with steps of nanoseconds: tesseract #381, moveit #3583) one is kept, the last point always
+/// and else the earlier, if no joint moves more than `kMergeDistance` between them. Refused (InvalidGoal) if
+/// one does, naming points, joint and distance. At least one index is returned. `goal` must be well formed
+/// (`validate_goal`) and `first` one of its points.
+Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, std::size_t first);
+
+}  // namespace interpolated_motion::trajectory

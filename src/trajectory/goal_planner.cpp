@@ -1,0 +1,198 @@
+#include "interpolated_motion_driver/trajectory/goal_planner.h"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/trajectory/goal_start.h"
+#include "interpolated_motion_driver/trajectory/goal_validation.h"
+#include "interpolated_motion_driver/trajectory/limits_check.h"
+#include "interpolated_motion_driver/trajectory/path_builder.h"
+#include "interpolated_motion_driver/trajectory/point_selection.h"
+#include "interpolated_motion_driver/trajectory/rest_to_rest.h"
+
+namespace interpolated_motion::trajectory {
+
+namespace {
+
+void check_count(const char* what, std::size_t count, std::size_t joints) {
+  if (count == joints) return;
+  throw std::invalid_argument(
+      fmt::format("plan_goal: {} {} for {} joints; give one per joint", count, what, joints));
+}
+
+void check_arguments(const GoalRules& rules, const std::vector<State>& present) {
+  const std::size_t joints = rules.joints.size();
+  check_count("limits", rules.limits.size(), joints);
+  check_count("start tolerances", rules.start_tolerance.size(), joints);
+  check_count("lead-in thresholds", rules.lead_in_threshold.size(), joints);
+  check_count("present states", present.size(), joints);
+}
+
+KnotData given(const Waypoint& point) {
+  if (point.velocities.empty()) return KnotData::Position;
+  return point.accelerations.empty() ? KnotData::Velocity : KnotData::Acceleration;
+}
+
+/// The paths of one goal whose points are selected and whose start is decided.
+class PathMaker {
+ public:
+  PathMaker(const Goal& goal, const GoalRules& rules, const std::vector<State>& present,
+            const PointSelection& selection, const GoalStart& start)
+      : goal_(goal), rules_(rules), present_(present), selection_(selection), start_(start) {
+    knots_.reserve(selection.points.size() + 1);
+  }
+
+  GoalTime duration() const { return time_of(selection_.points.back()); }
+
+  Expected<Path, Refusal> make(std::size_t joint) {
+    if (selection_.columns[joint] == kNotNamed) return resting_path(joint);
+    if (auto refusal = check_end(joint)) return *refusal;
+    Path path = moving_path(joint);
+    if (const auto violation = find_limit_violation(path, rules_.limits[joint]))
+      return refuse(joint, *violation);
+    return path;
+  }
+
+ private:
+  GoalTime time_of(std::size_t point) const { return goal_.points[point].time - selection_.skipped; }
+
+  Path resting_path(std::size_t joint) const {
+    Polynomial constant;
+    constant.coefficients[0] = present_[joint].position;
+    return Path({Piece{-start_.lead_in, duration(), constant}});
+  }
+
+  std::optional<Refusal> check_end(std::size_t joint) const {
+    const std::size_t last = selection_.points.back();
+    const Waypoint& point = goal_.points[last];
+    if (point.velocities.empty()) return std::nullopt;
+    const double velocity = point.velocities[selection_.columns[joint]];
+    if (std::abs(velocity) <= kRestVelocity) return std::nullopt;
+    return Refusal{
+        GoalError::InvalidGoal,
+        fmt::format("{}: the last point, points[{}], has a velocity of {:.6g}, allowed is {:g} at most: a "
+                    "drive cannot stop in no time. Let the trajectory end at rest.",
+                    rules_.joints[joint], last, velocity, kRestVelocity)};
+  }
+
+  Knot knot(std::size_t joint, std::size_t index) const {
+    const Waypoint& point = goal_.points[index];
+    const std::size_t column = selection_.columns[joint];
+    Knot result;
+    result.time = time_of(index);
+    result.given = given(point);
+    result.state.position = point.positions[column] + start_.shift[joint];
+    if (result.given != KnotData::Position) result.state.velocity = point.velocities[column];
+    if (result.given == KnotData::Acceleration) result.state.acceleration = point.accelerations[column];
+    return result;
+  }
+
+  static void bring_to_rest(Knot& knot) {
+    knot.state.velocity = 0.0;
+    if (std::abs(knot.state.acceleration) <= kRestAcceleration) knot.state.acceleration = 0.0;
+  }
+
+  void collect_knots(std::size_t joint) {
+    knots_.clear();
+    if (start_.bridge) {
+      knots_.push_back({GoalTime(0.0), {present_[joint].position, 0.0, 0.0}, KnotData::Acceleration});
+    }
+    for (const std::size_t index : selection_.points) knots_.push_back(knot(joint, index));
+    knots_.front().time = GoalTime(0.0);
+    bring_to_rest(knots_.front());
+    bring_to_rest(knots_.back());
+  }
+
+  Path moving_path(std::size_t joint) {
+    collect_knots(joint);
+    std::vector<Piece> pieces;
+    pieces.reserve(knots_.size());
+    if (start_.lead_in.count() > 0.0) {
+      Piece piece = rest_to_rest(present_[joint].position, knots_.front().state.position, -start_.lead_in,
+                                 start_.lead_in);
+      pieces.push_back(piece);
+    }
+    append_pieces(knots_, pieces);
+    return Path(std::move(pieces));
+  }
+
+  Refusal refuse(std::size_t joint, LimitViolation violation) const {
+    const std::size_t first = selection_.points.front();
+    const bool on_bridge = start_.bridge && violation.time < time_of(first);
+    violation.time += selection_.skipped;
+    Refusal refusal = limit_refusal(rules_.joints[joint], violation);
+    if (on_bridge) {
+      refusal.text += fmt::format(
+          " This is on the way from rest at the present position {:.6g} to points[{}], for which "
+          "there are {:.6f} s.",
+          present_[joint].position, first, time_of(first).count());
+    }
+    return refusal;
+  }
+
+  const Goal& goal_;
+  const GoalRules& rules_;
+  const std::vector<State>& present_;
+  const PointSelection& selection_;
+  const GoalStart& start_;
+  std::vector<Knot> knots_;
+};
+
+/// Checks the goal's form and picks the points that a path goes through.
+Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRules& rules, HostTime now,
+                                                std::vector<std::string>& warnings) {
+  if (auto refusal = validate_goal(goal, rules.joints, rules.allow_partial_joints)) return *refusal;
+  if (is_stop_request(goal))
+    return Refusal{GoalError::InvalidGoal, "The goal has no points: it is a request to stop."};
+  const auto columns = joint_columns(goal.joint_names, rules.joints, rules.allow_partial_joints);
+  if (!columns) return columns.error();
+  const auto future = drop_past_points(goal, now);
+  if (!future) return future.error();
+  if (!future.value().warning.empty()) warnings.push_back(future.value().warning);
+  auto points = merge_near_points(goal, future.value().first);
+  if (!points) return points.error();
+  return PointSelection{columns.value(), std::move(points).value(), future.value().skipped};
+}
+
+void warn_of_unused_accelerations(const Goal& goal, std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < goal.points.size(); ++i) {
+    if (goal.points[i].accelerations.empty() || !goal.points[i].velocities.empty()) continue;
+    warnings.push_back(
+        fmt::format("points[{}] has accelerations but no velocities; accelerations are used together with "
+                    "velocities only.",
+                    i));
+    return;
+  }
+}
+
+}  // namespace
+
+Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
+                                      const std::vector<State>& present, HostTime now) {
+  check_arguments(rules, present);
+  GoalPlan plan;
+  auto selected = select_points(goal, rules, now, plan.warnings);
+  if (!selected) return selected.error();
+  PointSelection selection = std::move(selected).value();
+  const auto start = plan_start(goal, rules, present, selection);
+  if (!start) return start.error();
+  if (!start.value().warning.empty()) plan.warnings.push_back(start.value().warning);
+  warn_of_unused_accelerations(goal, plan.warnings);
+
+  PathMaker maker(goal, rules, present, selection, start.value());
+  for (std::size_t joint = 0; joint < rules.joints.size(); ++joint) {
+    auto path = maker.make(joint);
+    if (!path) return path.error();
+    plan.paths.push_back(std::move(path).value());
+  }
+  plan.lead_in = start.value().lead_in;
+  plan.duration = maker.duration();
+  plan.skipped = selection.skipped;
+  return plan;
+}
+
+}  // namespace interpolated_motion::trajectory

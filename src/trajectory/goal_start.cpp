@@ -1,0 +1,119 @@
+#include "interpolated_motion_driver/trajectory/goal_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/trajectory/goal_validation.h"
+#include "interpolated_motion_driver/trajectory/point_selection.h"
+#include "interpolated_motion_driver/trajectory/rest_to_rest.h"
+
+namespace interpolated_motion::trajectory {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586476925;
+
+/// The first point against the present positions.
+class StartPoint {
+ public:
+  StartPoint(const Waypoint& point, const std::vector<std::size_t>& columns, const GoalRules& rules,
+             const std::vector<State>& present)
+      : point_(point), columns_(columns), rules_(rules), present_(present) {}
+
+  std::vector<double> shifts() const {
+    std::vector<double> result(columns_.size(), 0.0);
+    for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
+      if (!named(joint) || !rules_.limits[joint].continuous) continue;
+      const double distance = present_[joint].position - point_.positions[columns_[joint]];
+      result[joint] = kTurn * std::round(distance / kTurn);
+    }
+    return result;
+  }
+
+  std::optional<Refusal> check_tolerance(const std::vector<double>& shift) const {
+    for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
+      if (!named(joint) || std::abs(deviation(joint, shift)) <= rules_.start_tolerance[joint]) continue;
+      return Refusal{
+          GoalError::InvalidGoal,
+          fmt::format(
+              "{}: the trajectory starts at {:.6g}, but the joint is at {:.6g}; allowed is a difference of "
+              "{:.6g} "
+              "(start tolerance). Plan from the present position, or give the first point a time_from_start "
+              "that is enough to get there.",
+              rules_.joints[joint], point_.positions[columns_[joint]] + shift[joint],
+              present_[joint].position, rules_.start_tolerance[joint])};
+    }
+    return std::nullopt;
+  }
+
+  /// Index of a joint that the point wants to move already.
+  std::optional<std::size_t> moving_joint() const {
+    if (point_.velocities.empty()) return std::nullopt;
+    for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
+      if (named(joint) && std::abs(point_.velocities[columns_[joint]]) > kRestVelocity) return joint;
+    }
+    return std::nullopt;
+  }
+
+  std::string moving_warning(std::size_t joint, std::size_t index) const {
+    return fmt::format(
+        "{}: the trajectory starts with a velocity of {:.6g} at points[{}], but the joint is at rest "
+        "(a velocity up to {:g} passes for rest). The present state takes the place of that point.",
+        rules_.joints[joint], point_.velocities[columns_[joint]], index, kRestVelocity);
+  }
+
+  /// Length of the common lead-in, 0 if no joint needs one.
+  GoalTime lead_in(const std::vector<double>& shift) const {
+    bool needed = false;
+    GoalTime longest = kShortestMotion;
+    for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
+      if (!named(joint)) continue;
+      const double distance = deviation(joint, shift);
+      needed = needed || std::abs(distance) > rules_.lead_in_threshold[joint];
+      longest = std::max(longest, rest_to_rest_duration(distance, rules_.limits[joint], kLeadInPart));
+    }
+    return needed ? GoalTime(std::ceil(longest.count() * 1000.0) / 1000.0) : GoalTime(0.0);
+  }
+
+ private:
+  bool named(std::size_t joint) const { return columns_[joint] != kNotNamed; }
+  double deviation(std::size_t joint, const std::vector<double>& shift) const {
+    return point_.positions[columns_[joint]] + shift[joint] - present_[joint].position;
+  }
+
+  const Waypoint& point_;
+  const std::vector<std::size_t>& columns_;
+  const GoalRules& rules_;
+  const std::vector<State>& present_;
+};
+
+}  // namespace
+
+Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules,
+                                        const std::vector<State>& present, PointSelection& selection) {
+  const std::size_t first = selection.points.front();
+  const StartPoint point(goal.points[first], selection.columns, rules, present);
+  GoalStart start;
+  start.shift = point.shifts();
+  start.bridge = goal.points[first].time - selection.skipped >= kMinimumStep;
+  if (start.bridge) return start;
+  if (selection.points.size() == 1) {
+    return all_points_past(
+        goal.points.size(), GoalTime(0.0),
+        fmt::format("A goal needs a point {:g} s or more after its start.", kMinimumStep.count()));
+  }
+  if (auto refusal = point.check_tolerance(start.shift)) return *refusal;
+  if (const auto joint = point.moving_joint()) {
+    start.bridge = true;
+    start.warning = point.moving_warning(*joint, first);
+    selection.points.erase(selection.points.begin());
+    return start;
+  }
+  start.lead_in = point.lead_in(start.shift);
+  return start;
+}
+
+}  // namespace interpolated_motion::trajectory

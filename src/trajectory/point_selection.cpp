@@ -1,0 +1,94 @@
+#include "interpolated_motion_driver/trajectory/point_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/trajectory/goal_rules.h"
+
+namespace interpolated_motion::trajectory {
+
+namespace {
+
+/// Times come in whole nanoseconds; their differences are rounded.
+constexpr GoalTime kHalfNanosecond{0.5e-9};
+
+/// Index of the joint that moves farthest between two points.
+std::size_t farthest_joint(const Waypoint& a, const Waypoint& b) {
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < a.positions.size(); ++i) {
+    const auto move = [&](std::size_t joint) { return std::abs(b.positions[joint] - a.positions[joint]); };
+    if (move(i) > move(farthest)) farthest = i;
+  }
+  return farthest;
+}
+
+std::optional<Refusal> check_merge(const Goal& goal, std::size_t earlier, std::size_t later) {
+  const Waypoint& a = goal.points[earlier];
+  const Waypoint& b = goal.points[later];
+  const std::size_t joint = farthest_joint(a, b);
+  const double move = b.positions[joint] - a.positions[joint];
+  if (std::abs(move) <= kMergeDistance) return std::nullopt;
+  return Refusal{
+      GoalError::InvalidGoal,
+      fmt::format(
+          "points[{}] and points[{}] are {:.3g} s apart and move joint '{}' by {:.3g}; the shortest step "
+          "is {:g} s, below it nothing may move by more than {:g}. Leave one of the points out, or "
+          "give them more time.",
+          earlier, later, (b.time - a.time).count(), goal.joint_names[joint], move, kMinimumStep.count(),
+          kMergeDistance)};
+}
+
+std::string dropped_warning(const Goal& goal, const FuturePoints& kept) {
+  return fmt::format(
+      "Dropping first {} trajectory point(s) out of {}, as they occur before the current time.\nFirst valid "
+      "point will be reached in {:.3f}s. The stamp of the goal is {:.6f} s in the past; the motion "
+      "goes from where the joints are to that point.",
+      kept.first, goal.points.size(), (goal.points[kept.first].time - kept.skipped).count(),
+      kept.skipped.count());
+}
+
+}  // namespace
+
+Refusal all_points_past(std::size_t count, GoalTime late, const std::string& sentence) {
+  return {GoalError::InvalidGoal,
+          fmt::format(
+              "Dropping all {} trajectory point(s), as they occur before the current time.\nLast point is "
+              "{:.6f}s in the past. {}",
+              count, late.count(), sentence)};
+}
+
+Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now) {
+  FuturePoints kept;
+  if (!goal.start || *goal.start >= now) return kept;
+  kept.skipped = GoalTime(seconds(now - *goal.start));
+  const auto in_past = [&](const Waypoint& point) { return point.time <= kept.skipped; };
+  const auto first = std::partition_point(goal.points.begin(), goal.points.end(), in_past);
+  if (first == goal.points.end()) {
+    return all_points_past(goal.points.size(), kept.skipped - goal.points.back().time,
+                           "Send the goal earlier, or with stamp 0 to start at once; if it was sent in time, "
+                           "synchronise the clocks.");
+  }
+  kept.first = static_cast<std::size_t>(first - goal.points.begin());
+  if (kept.first > 0) kept.warning = dropped_warning(goal, kept);
+  return kept;
+}
+
+Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, std::size_t first) {
+  const std::size_t last = goal.points.size() - 1;
+  std::vector<std::size_t> kept{first};
+  kept.reserve(goal.points.size() - first);
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    if (goal.points[i].time - goal.points[kept.back()].time > kMinimumStep - kHalfNanosecond) {
+      kept.push_back(i);
+      continue;
+    }
+    if (auto refusal = check_merge(goal, kept.back(), i)) return *refusal;
+    if (i == last) kept.back() = last;
+  }
+  return kept;
+}
+
+}  // namespace interpolated_motion::trajectory

@@ -1,0 +1,86 @@
+#include "interpolated_motion_driver/trajectory/point_selection.h"
+
+#include <gtest/gtest.h>
+
+#include "trajectory/goals.h"
+
+namespace interpolated_motion::trajectory {
+namespace {
+
+using Indices = std::vector<std::size_t>;
+
+Goal goal_at(const std::vector<double>& times, const std::vector<double>& positions) {
+  Goal goal;
+  goal.joint_names = {"joint1"};
+  for (std::size_t i = 0; i < times.size(); ++i) goal.points.push_back(point(times[i], {positions[i]}));
+  return goal;
+}
+
+TEST(DropPastPoints, KeepsAllWithoutStampOrBeforeIt) {
+  Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
+  EXPECT_EQ(drop_past_points(goal, host_time(100)).value().first, 0u);
+  goal.start = host_time(101);
+  const auto kept = drop_past_points(goal, host_time(100)).value();
+  EXPECT_EQ(kept.first, 0u);
+  EXPECT_EQ(kept.skipped.count(), 0.0);
+  EXPECT_EQ(kept.warning, "");
+}
+
+TEST(DropPastPoints, DropsThoseBeforeNow) {
+  Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
+  goal.start = host_time(98.75);
+  const auto kept = drop_past_points(goal, host_time(100)).value();
+  EXPECT_EQ(kept.first, 2u);
+  EXPECT_DOUBLE_EQ(kept.skipped.count(), 1.25);
+  EXPECT_EQ(kept.warning.rfind(
+                "Dropping first 2 trajectory point(s) out of 3, as they occur before the current time.\n"
+                "First valid point will be reached in 0.750s.",
+                0),
+            0u)
+      << kept.warning;
+}
+
+TEST(DropPastPoints, DropsThePointThatIsDueNow) {
+  Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
+  goal.start = host_time(99);
+  EXPECT_EQ(drop_past_points(goal, host_time(100)).value().first, 2u);
+}
+
+TEST(DropPastPoints, RefusesAGoalThatIsOver) {
+  Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
+  goal.start = host_time(97.5);
+  const auto refusal = drop_past_points(goal, host_time(100)).error();
+  EXPECT_EQ(refusal.code, GoalError::InvalidGoal);
+  EXPECT_EQ(refusal.text.rfind("Dropping all 3 trajectory point(s), as they occur before the current time.\n"
+                               "Last point is 0.500000s in the past. ",
+                               0),
+            0u)
+      << refusal.text;
+}
+
+TEST(MergeNearPoints, KeepsWhatIsFarEnoughApart) {
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.0001, 2}, {0, 1, 1.5, 2}), 0).value(), (Indices{0, 1, 2, 3}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 2}, {0, 1, 2}), 1).value(), (Indices{1, 2}));
+}
+
+TEST(MergeNearPoints, KeepsTheLastOfALastStepOfNanoseconds) {
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1}), 0).value(), (Indices{0, 2}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1 + 3e-9, 1 + 6e-9}, {0, 1, 1, 1 + 1e-9}), 0).value(),
+            (Indices{0, 3}));
+}
+
+TEST(MergeNearPoints, KeepsTheEarlierElsewhere) {
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.00005, 2}, {0, 1, 1, 2}), 0).value(), (Indices{0, 1, 3}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1e-9, 2}, {0, 0, 2}), 0).value(), (Indices{0, 2}));
+}
+
+TEST(MergeNearPoints, RefusesAJumpInNoTime) {
+  const auto refusal = merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1.001}), 0).error();
+  EXPECT_EQ(refusal.code, GoalError::InvalidGoal);
+  EXPECT_NE(refusal.text.find("points[1] and points[2] are 3e-09 s apart and move joint 'joint1' by 0.001"),
+            std::string::npos)
+      << refusal.text;
+}
+
+}  // namespace
+}  // namespace interpolated_motion::trajectory
