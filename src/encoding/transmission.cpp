@@ -9,7 +9,9 @@ constexpr double kSecondsPerMinute = 60.0;
 
 double Transmission::counts_per_radian() const { return direction * ratio * counts_per_revolution / kTwoPi; }
 
-double Transmission::counts(double joint_position) const { return (joint_position - offset) * counts_per_radian(); }
+double Transmission::counts(double joint_position) const {
+  return (joint_position - offset) * counts_per_radian();
+}
 
 double Transmission::joint_position(double counts) const { return offset + counts / counts_per_radian(); }
 

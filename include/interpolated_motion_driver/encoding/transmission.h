@@ -11,13 +11,13 @@ struct Transmission {
   int direction = 1;                   ///< +1 or -1
   double offset = 0.0;                 ///< joint position (rad) at which the encoder reads 0
 
-  double counts_per_radian() const;               ///< signed
-  double counts(double joint_position) const;     ///< actuator position in counts, not rounded
-  double joint_position(double counts) const;     ///< rad
-  double joint_velocity(double counts_per_second) const;      ///< rad/s
-  double counts_per_second(double joint_velocity) const;      ///< signed
-  double motor_rpm(double joint_velocity) const;              ///< signed, rpm of the motor
-  double joint_velocity_from_rpm(double rpm) const;           ///< rad/s
+  double counts_per_radian() const;                       ///< signed
+  double counts(double joint_position) const;             ///< actuator position in counts, not rounded
+  double joint_position(double counts) const;             ///< rad
+  double joint_velocity(double counts_per_second) const;  ///< rad/s
+  double counts_per_second(double joint_velocity) const;  ///< signed
+  double motor_rpm(double joint_velocity) const;          ///< signed, rpm of the motor
+  double joint_velocity_from_rpm(double rpm) const;       ///< rad/s
 };
 
 }  // namespace interpolated_motion::encoding
