@@ -9,10 +9,10 @@ namespace interpolated_motion::canopen {
 
 /// A classic CAN data or remote frame (ISO 11898-1), as it stands on the bus.
 struct Frame {
-  std::uint32_t id = 0;      ///< 11-bit identifier, or 29-bit when `extended`
-  bool extended = false;     ///< 29-bit identifier
-  bool remote = false;       ///< remote transmission request: carries a length but no data
-  std::uint8_t length = 0;   ///< data length code, 0..8
+  std::uint32_t id = 0;     ///< 11-bit identifier, or 29-bit when `extended`
+  bool extended = false;    ///< 29-bit identifier
+  bool remote = false;      ///< remote transmission request: carries a length but no data
+  std::uint8_t length = 0;  ///< data length code, 0..8
   std::array<std::uint8_t, 8> data{};
 };
 

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/protocol/canopen/bus_load.h"
+#include "interpolated_motion_driver/protocol/canopen/cob_id.h"
+#include "interpolated_motion_driver/protocol/canopen/frame.h"
+#include "interpolated_motion_driver/protocol/canopen/heartbeat.h"
+#include "interpolated_motion_driver/protocol/canopen/nmt.h"
+#include "interpolated_motion_driver/protocol/canopen/node_link.h"
+#include "interpolated_motion_driver/protocol/canopen/pacer.h"
+#include "interpolated_motion_driver/protocol/canopen/ring.h"
+#include "interpolated_motion_driver/protocol/canopen/sync.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::canopen {
+
+struct MasterParameters {
+  std::uint8_t own_node_id = 127;                         ///< 1..127, of the heartbeat the drives watch
+  HostDuration heartbeat_period = HostDuration::zero();   ///< of this host; zero: none is sent
+  HostDuration heartbeat_timeout = HostDuration::zero();  ///< of the nodes; zero: not monitored
+  HostDuration sync_period = HostDuration::zero();        ///< zero: SYNC on request only
+  std::uint32_t bitrate = 1'000'000;                      ///< bit/s, 10000..1000000
+  double max_bulk_load = 0.6;                             ///< share of the bus for bulk frames, 0.01..1
+  int bulk_burst = 4;                                     ///< bulk frames that may go back to back, 1..64
+  SdoParameters sdo;                                      ///< of the SDO clients
+  std::size_t control_capacity = 256;                     ///< frames, 16..65536
+  std::size_t bulk_capacity = 128;                        ///< frames of each node, 1..65536
+  std::size_t emcy_capacity = 16;                         ///< messages of each node, 1..65536
+};
+
+/// Why a received frame could not be used.
+enum class UnexpectedFrame {
+  UnknownCobId,  ///< identifier outside the predefined connection set
+  RemoteFrame,
+  ExtendedFrame,     ///< 29-bit identifier
+  UnconfiguredNode,  ///< a service of a node that was not added
+  OtherMaster,       ///< NMT, SYNC, TIME, RPDO, SDO request or heartbeat with this host's id, sent by another
+  Malformed,         ///< heartbeat or EMCY of a wrong length
+};
+inline constexpr int kUnexpectedFrameCauses = 6;
+
+/// Frames of one cause: how many, and the last of them.
+struct UnexpectedFrames {
+  std::uint64_t count = 0;
+  Frame last;
+  HostTime time{};
+};
+
+/// The CANopen master of one bus, sans-IO: received frames go in with `on_frame`, frames to send come out of
+/// `peek_outgoing`/`pop_outgoing`, time is given. After construction and `add_node` nothing is allocated per
+/// frame (SDO transfers of more than 8 bytes excepted).
+///
+/// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
+/// made. Bulk frames
+/// (`NodeLink::send_record`) leave when no control frame waits, node after node in turn, paced so that they
+/// take at most `max_bulk_load` of the bit rate, each counted as 135 bits, the worst case: RPDO identifiers
+/// beat those of SDO and heartbeat, so an unpaced prefill would starve them.
+class Master {
+ public:
+  /// `bus_name` is used in texts. Throws std::invalid_argument with parameter, value and range.
+  explicit Master(std::string bus_name, MasterParameters parameters = {});
+  ~Master();
+  Master(const Master&) = delete;
+  Master& operator=(const Master&) = delete;
+
+  /// Adds a node, 1..127, neither own nor added before; throws std::invalid_argument otherwise.
+  NodeLink& add_node(std::uint8_t id);
+  /// The node, or nullptr when it was not added.
+  NodeLink* find_node(std::uint8_t id) { return id <= kMaxNodeId ? nodes_[id].get() : nullptr; }
+
+  const std::string& bus_name() const { return bus_name_; }
+  const MasterParameters& parameters() const { return parameters_; }
+
+  /// A frame seen on the bus, of another node or of this host. TPDO handlers are called from here.
+  void on_frame(const ReceivedFrame& received);
+
+  /// Does what time demands: SYNC, heartbeat, time-outs of SDO and of the nodes' heartbeats. Hand over the
+  /// frames received until `now` before, so that an answer which is there already prevents its time-out.
+  void poll(HostTime now);
+
+  /// When `poll`, or `peek_outgoing` for a paced frame, must be called next. Frames that may go already set
+  /// no deadline: offer them to the transport after every call that may have queued some, and again when it
+  /// has room.
+  HostTime next_deadline() const;
+
+  /// The frame to send next, or nullptr. Valid until the next call of any function of the master or its
+  /// nodes.
+  const Frame* peek_outgoing(HostTime now);
+  /// The transport has taken the frame that `peek_outgoing` returned just before.
+  void pop_outgoing(HostTime now);
+
+  /// NMT command to one node or to `kAllNodes`. False when the control queue is full.
+  bool send_nmt(NmtCommand command, std::uint8_t node);
+  /// One SYNC, behind every control frame queued so far (SDO requests started so far included). False when
+  /// the control queue is full.
+  bool request_sync(HostTime now);
+
+  /// Drops everything that waits to be sent, control and bulk frames. For a bus that was down: a controlword
+  /// of then must not reach a drive now. SDO transfers that lose a frame so end with their time-out.
+  void clear_outgoing();
+
+  /// End of this host's last SYNC on the bus (the epoch before the first), and how many there were.
+  HostTime last_sync_time() const { return last_sync_time_; }
+  std::uint64_t syncs_confirmed() const { return syncs_confirmed_; }
+
+  /// Control frames not yet given to the transport.
+  std::size_t pending_control() const { return control_.size(); }
+  /// Control frames refused because the queue was full.
+  std::uint64_t control_overflows() const { return control_overflows_; }
+
+  /// Share of the bus in use, own and others' frames, see `BusLoad`.
+  double bus_load(HostTime now) const { return load_.load(now); }
+  /// As of the latest time this master was given.
+  double bus_load() const { return load_.load(now_); }
+
+  const UnexpectedFrames& unexpected(UnexpectedFrame cause) const;
+  /// "can0: 3 frames of nodes that are not configured, last: TPDO 1 of node 9, 189#3702"; empty when there
+  /// were none.
+  std::string unexpected_text(UnexpectedFrame cause) const;
+
+ private:
+  friend class NodeLink;
+  enum class Kind : std::uint8_t { Other, PeriodicSync, Heartbeat, Sdo };
+  struct ControlFrame {
+    Frame frame;
+    Kind kind = Kind::Other;
+    std::uint8_t node = 0;
+  };
+  enum class Peeked : std::uint8_t { None, Control, Bulk };
+
+  bool queue_control(const Frame& frame, Kind kind = Kind::Other, std::uint8_t node = 0);
+  bool push_control(const ControlFrame& frame);
+  void collect_sdo();
+  void advance(HostTime now);
+  NodeLink* next_bulk_node();
+  void release_control();
+
+  void on_own_frame(const ReceivedFrame& received);
+  void on_foreign_frame(const ReceivedFrame& received);
+  void deliver(NodeLink& node, const CobIdMeaning& meaning, const ReceivedFrame& received);
+  void deliver_emcy(NodeLink& node, const ReceivedFrame& received);
+  void poll_nodes(HostTime now);
+  void count(UnexpectedFrame cause, const ReceivedFrame& received);
+
+  std::string bus_name_;
+  MasterParameters parameters_;
+  std::array<std::unique_ptr<NodeLink>, kMaxNodeId + 1> nodes_;
+  std::vector<NodeLink*> in_order_;  ///< the nodes as they were added
+  std::size_t bulk_turn_ = 0;        ///< index into `in_order_` of the node whose bulk frame goes next
+  HostTime now_{};                   ///< latest time given
+
+  Ring<ControlFrame> control_;
+  Pacer pacer_;
+  Peeked peeked_ = Peeked::None;
+  bool periodic_sync_queued_ = false;
+  bool heartbeat_queued_ = false;
+  std::uint64_t control_overflows_ = 0;
+
+  HeartbeatProducer heartbeat_;
+  SyncProducer sync_;
+  HostTime last_sync_time_{};
+  std::uint64_t syncs_confirmed_ = 0;
+  BusLoad load_;
+  std::array<UnexpectedFrames, kUnexpectedFrameCauses> unexpected_{};
+};
+
+}  // namespace interpolated_motion::canopen

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "interpolated_motion_driver/protocol/canopen/frame.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::canopen {
+
+/// SYNC without counter: identifier 0x080, no data (CiA 301, 7.2.5). EPOS2 allows no other identifier
+/// (0x1005).
+Frame sync_frame();
+
+/// When periodic SYNC frames are due. (`Master::request_sync` sends one at any other time.)
+class SyncProducer {
+ public:
+  /// `period`: zero or less means none.
+  explicit SyncProducer(HostDuration period = HostDuration::zero()) : period_(period) {}
+
+  /// Whether a periodic SYNC is due. The first is due one period after the first call; the grid stays fixed
+  /// (a late call does not move it), and periods missed altogether are skipped.
+  bool poll(HostTime now);
+
+  /// When the next periodic SYNC is due; `kNever` when off or before the first call of `poll`.
+  HostTime next_deadline() const { return next_; }
+
+ private:
+  HostDuration period_;
+  HostTime next_ = kNever;
+};
+
+}  // namespace interpolated_motion::canopen

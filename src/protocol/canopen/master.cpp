@@ -1,0 +1,183 @@
+#include "interpolated_motion_driver/protocol/canopen/master.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace interpolated_motion::canopen {
+namespace {
+
+constexpr double kWorstCaseBits = 135;  ///< 8 data bytes, 11-bit identifier; see `worst_case_bits`
+
+template <class Value>
+void check_range(const std::string& bus, const char* parameter, Value value, Value low, Value high) {
+  if (value >= low && value <= high) return;
+  throw std::invalid_argument(fmt::format("{}: {} = {} is not in {}..{}", bus, parameter, value, low, high));
+}
+
+void check_period(const std::string& bus, const char* parameter, HostDuration value) {
+  constexpr HostDuration kLongest = std::chrono::hours(1);
+  if (value >= HostDuration::zero() && value <= kLongest) return;
+  throw std::invalid_argument(
+      fmt::format("{}: {} = {} s is not in 0..{} s", bus, parameter, seconds(value), seconds(kLongest)));
+}
+
+MasterParameters checked(const std::string& bus, const MasterParameters& p) {
+  check_range<int>(bus, "own_node_id", p.own_node_id, 1, kMaxNodeId);
+  check_period(bus, "heartbeat_period", p.heartbeat_period);
+  check_period(bus, "heartbeat_timeout", p.heartbeat_timeout);
+  check_period(bus, "sync_period", p.sync_period);
+  check_range<std::uint32_t>(bus, "bitrate", p.bitrate, 10'000, 1'000'000);
+  check_range(bus, "max_bulk_load", p.max_bulk_load, 0.01, 1.0);
+  check_range(bus, "bulk_burst", p.bulk_burst, 1, 64);
+  check_range<std::size_t>(bus, "control_capacity", p.control_capacity, 16, 65536);
+  check_range<std::size_t>(bus, "bulk_capacity", p.bulk_capacity, 1, 65536);
+  check_range<std::size_t>(bus, "emcy_capacity", p.emcy_capacity, 1, 65536);
+  return p;
+}
+
+/// Time a bulk frame of the worst case takes at the share of the bus that bulk frames may use.
+HostDuration bulk_interval(const MasterParameters& p) {
+  return HostDuration(std::llround(kWorstCaseBits * 1e9 / (p.max_bulk_load * p.bitrate)));
+}
+
+}  // namespace
+
+Master::Master(std::string bus_name, MasterParameters parameters)
+    : bus_name_(std::move(bus_name)),
+      parameters_(checked(bus_name_, parameters)),
+      control_(parameters_.control_capacity),
+      pacer_(bulk_interval(parameters_), parameters_.bulk_burst),
+      heartbeat_(parameters_.own_node_id, parameters_.heartbeat_period),
+      sync_(parameters_.sync_period),
+      load_(parameters_.bitrate) {}
+
+Master::~Master() = default;
+
+NodeLink& Master::add_node(std::uint8_t id) {
+  check_range<int>(bus_name_, "node id", id, 1, kMaxNodeId);
+  if (id == parameters_.own_node_id) {
+    throw std::invalid_argument(fmt::format("{}: node id {} is this host's own", bus_name_, id));
+  }
+  if (nodes_[id]) throw std::invalid_argument(fmt::format("{}: node id {} is used twice", bus_name_, id));
+  nodes_[id].reset(new NodeLink(*this, id));
+  in_order_.push_back(nodes_[id].get());
+  return *nodes_[id];
+}
+
+void Master::advance(HostTime now) { now_ = std::max(now_, now); }
+
+void Master::poll(HostTime now) {
+  advance(now);
+  poll_nodes(now);
+  if (sync_.poll(now) && !periodic_sync_queued_) {
+    periodic_sync_queued_ = queue_control(sync_frame(), Kind::PeriodicSync);
+  }
+  const auto heartbeat = heartbeat_.poll(now);
+  if (heartbeat && !heartbeat_queued_) heartbeat_queued_ = queue_control(*heartbeat, Kind::Heartbeat);
+}
+
+void Master::poll_nodes(HostTime now) {
+  // Requests made while frames of the past were handled are handed out first: their time-outs start now.
+  collect_sdo();
+  for (NodeLink* node : in_order_) {
+    node->sdo_.poll(now);
+    node->heartbeat_.poll(now);
+  }
+  collect_sdo();
+}
+
+HostTime Master::next_deadline() const {
+  HostTime next = std::min(heartbeat_.next_deadline(), sync_.next_deadline());
+  bool bulk_waits = false;
+  for (const NodeLink* node : in_order_) {
+    next = std::min({next, node->sdo_.next_deadline(), node->heartbeat_.next_deadline()});
+    bulk_waits = bulk_waits || !node->records_.empty();
+  }
+  if (bulk_waits && pacer_.ready_time() > now_) next = std::min(next, pacer_.ready_time());
+  return next;
+}
+
+bool Master::send_nmt(NmtCommand command, std::uint8_t node) {
+  return queue_control(nmt_frame(command, node));
+}
+
+bool Master::request_sync(HostTime now) {
+  advance(now);
+  return queue_control(sync_frame());
+}
+
+bool Master::queue_control(const Frame& frame, Kind kind, std::uint8_t node) {
+  collect_sdo();
+  return push_control({frame, kind, node});
+}
+
+bool Master::push_control(const ControlFrame& frame) {
+  const bool room = control_.push(frame);
+  if (!room) ++control_overflows_;
+  return room;
+}
+
+/// Moves what the SDO clients have to send into the control queue, one frame of each node at a time, so that
+/// the segments of a block do not delay other control frames.
+void Master::collect_sdo() {
+  for (NodeLink* node : in_order_) {
+    if (node->sdo_frame_queued_ || !node->sdo_.has_frame() || control_.full()) continue;
+    node->sdo_frame_queued_ = push_control({*node->sdo_.next_frame(now_), Kind::Sdo, node->id_});
+  }
+}
+
+const Frame* Master::peek_outgoing(HostTime now) {
+  advance(now);
+  collect_sdo();
+  peeked_ = Peeked::None;
+  if (!control_.empty()) {
+    peeked_ = Peeked::Control;
+    return &control_.front().frame;
+  }
+  NodeLink* node = pacer_.ready(now) ? next_bulk_node() : nullptr;
+  if (node == nullptr) return nullptr;
+  peeked_ = Peeked::Bulk;
+  return &node->records_.front();
+}
+
+void Master::pop_outgoing(HostTime now) {
+  advance(now);
+  if (peeked_ == Peeked::Control) release_control();
+  if (peeked_ == Peeked::Bulk) {
+    in_order_[bulk_turn_]->records_.pop();
+    bulk_turn_ = (bulk_turn_ + 1) % in_order_.size();
+    pacer_.consume(now);
+  }
+  peeked_ = Peeked::None;
+}
+
+void Master::release_control() {
+  const ControlFrame& sent = control_.front();
+  if (sent.kind == Kind::PeriodicSync) periodic_sync_queued_ = false;
+  if (sent.kind == Kind::Heartbeat) heartbeat_queued_ = false;
+  if (sent.kind == Kind::Sdo) nodes_[sent.node]->sdo_frame_queued_ = false;
+  control_.pop();
+}
+
+void Master::clear_outgoing() {
+  collect_sdo();
+  while (!control_.empty()) release_control();
+  for (NodeLink* node : in_order_) node->clear_records();
+  peeked_ = Peeked::None;
+}
+
+/// The node whose turn it is, or the next after it with a bulk frame; nullptr when none has.
+NodeLink* Master::next_bulk_node() {
+  for (std::size_t i = 0; i < in_order_.size(); ++i) {
+    const std::size_t turn = (bulk_turn_ + i) % in_order_.size();
+    if (in_order_[turn]->records_.empty()) continue;
+    bulk_turn_ = turn;
+    return in_order_[turn];
+  }
+  return nullptr;
+}
+
+}  // namespace interpolated_motion::canopen

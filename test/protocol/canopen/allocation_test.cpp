@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "interpolated_motion_driver/protocol/canopen/master.h"
+#include "protocol/canopen/bytes.h"
+
+// Counts the allocations of the whole test program, so that those of the master can be told.
+namespace {
+std::size_t allocation_count = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocation_count;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace interpolated_motion::canopen::test {
+namespace {
+
+TEST(MasterAllocation, NoneForAFrame) {
+  MasterParameters parameters;
+  parameters.sync_period = std::chrono::milliseconds(10);
+  parameters.heartbeat_period = std::chrono::milliseconds(10);
+  parameters.heartbeat_timeout = std::chrono::milliseconds(50);
+  Master master("can0", parameters);
+  NodeLink& node = master.add_node(3);
+  int pdos = 0;
+  node.set_tpdo_handler([&pdos](int, const Frame&, HostTime) { ++pdos; });
+  const std::uint8_t data[8] = {};
+  int transfers = 0;
+  int sent = 0;
+
+  const std::size_t before = allocation_count;
+  for (int ms = 0; ms < 1000; ++ms) {
+    const HostTime now = at_ms(ms);
+    master.on_frame({make_frame(0x183, {0x37, 0x13}), now, false});
+    master.on_frame({make_frame(0x083, {0x0C, 0xFF, 0x20, 0, 0, 0, 0, 0}), now, false});
+    master.on_frame({make_frame(0x703, {0x05}), now, false});
+    master.on_frame({make_frame(0x799, {0x05}), now, false});
+    master.on_frame({make_frame(0x583, {0x4B, 0x41, 0x60, 0, 0x37, 0x13, 0, 0}), now, false});
+    if (const auto result = node.sdo().take_result()) transfers += result->ok ? 1 : 0;
+    node.sdo().start_upload({0x6041, 0}, now);
+    node.send_rpdo(2, data, 3);
+    node.send_record(1, data, 8);
+    master.poll(now);
+    while (master.peek_outgoing(now) != nullptr) {
+      master.pop_outgoing(now);
+      ++sent;
+    }
+  }
+  EXPECT_EQ(allocation_count - before, 0u);
+  EXPECT_EQ(pdos, 1000);
+  EXPECT_EQ(transfers, 999);
+  EXPECT_GT(sent, 3000);
+}
+
+}  // namespace
+}  // namespace interpolated_motion::canopen::test
