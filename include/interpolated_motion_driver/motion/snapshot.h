@@ -15,50 +15,51 @@ struct JointSnapshot {
   std::string joint;
   std::string bus;
 
-  trajectory::State desired;  ///< the committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2)
-  trajectory::State actual;   ///< as the drive reports; no acceleration
+  trajectory::State
+      desired;  ///< the committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2)
+  trajectory::State actual;  ///< as the drive reports; no acceleration
 
-  bool online = false;              ///< the drive answers and its heartbeat arrives
-  std::string state;                ///< CiA 402 state, or its SilverLode equal, as text
-  std::uint16_t statusword = 0;     ///< CiA 402 statusword 0x6041
-  std::int8_t mode = 0;             ///< modes of operation display 0x6061
-  double demand_position = 0.0;     ///< rad, the drive's own demand value
-  double following_error = 0.0;     ///< rad, demand minus actual
-  std::uint16_t error_code = 0;     ///< last EMCY error code since the last reset, 0 none
+  bool online = false;           ///< the drive answers and its heartbeat arrives
+  std::string state;             ///< CiA 402 state, or its SilverLode equal, as text
+  std::uint16_t statusword = 0;  ///< CiA 402 statusword 0x6041
+  std::int8_t mode = 0;          ///< modes of operation display 0x6061
+  double demand_position = 0.0;  ///< rad, the drive's own demand value
+  double following_error = 0.0;  ///< rad, demand minus actual
+  std::uint16_t error_code = 0;  ///< last EMCY error code since the last reset, 0 none
   std::string error_text;
 
-  std::uint32_t capacity = 0;        ///< records the FIFO holds
-  std::uint32_t fill = 0;            ///< records in the FIFO, estimated from time and corrected by the drive's reports
-  double fill_time = 0.0;            ///< s of motion left in the FIFO
+  std::uint32_t capacity = 0;  ///< records the FIFO holds
+  std::uint32_t fill = 0;  ///< records in the FIFO, estimated from time and corrected by the drive's reports
+  double fill_time = 0.0;  ///< s of motion left in the FIFO
   bool underflow_warning = false;
   bool overflow_warning = false;
   bool velocity_warning = false;
   bool acceleration_warning = false;
-  std::uint32_t underruns = 0;       ///< since start of the driver
+  std::uint32_t underruns = 0;  ///< since start of the driver
   std::uint32_t overflows = 0;
   std::uint32_t refused_writes = 0;  ///< records the drive did not take
   std::uint64_t records_sent = 0;
-  double clock_error_ppm = 0.0;      ///< estimated error of the drive's clock against the host's
+  double clock_error_ppm = 0.0;  ///< estimated error of the drive's clock against the host's
 };
 
 struct BusSnapshot {
   std::string name;
-  double load = 0.0;             ///< 0..1, over the last second
+  double load = 0.0;  ///< 0..1, over the last second
   std::uint64_t frames_sent = 0;
   std::uint64_t frames_received = 0;
   std::uint64_t unexpected = 0;  ///< frames nobody was waiting for
 };
 
 enum class GroupState {
-  Starting,   ///< drives are being found and configured
-  Disabled,   ///< drives answer, power stages off
+  Starting,  ///< drives are being found and configured
+  Disabled,  ///< drives answer, power stages off
   Enabling,
   Idle,       ///< enabled, at rest, ready for a goal
   Preparing,  ///< a goal is being loaded into the drives
   Moving,
-  Settling,   ///< the records are played; waiting for the joints to be within their goal tolerances
+  Settling,  ///< the records are played; waiting for the joints to be within their goal tolerances
   Stopping,
-  Fault,      ///< a drive is in fault or lost; ~reset_faults, then ~enable
+  Fault,  ///< a drive is in fault or lost; ~reset_faults, then ~enable
 };
 
 const char* to_string(GroupState state);
@@ -80,11 +81,12 @@ struct JointReport {
   std::string joint;
   std::string bus;
   std::uint64_t records_sent = 0;
-  std::uint32_t minimum_fill = 0;    ///< records, while interpolating and more were to come
+  std::uint32_t minimum_fill = 0;  ///< records, while interpolating and more were to come
   std::uint32_t underruns = 0;
-  std::uint64_t samples = 0;         ///< drive samples compared (0: the drive is not emulated)
-  double worst_deviation = 0.0;      ///< counts: drive's demand against the goal's polynomial, over all drive samples
-  double final_deviation = 0.0;      ///< counts, at the last sample
+  std::uint64_t samples = 0;  ///< drive samples compared (0: the drive is not emulated)
+  double worst_deviation =
+      0.0;  ///< counts: drive's demand against the goal's polynomial, over all drive samples
+  double final_deviation = 0.0;  ///< counts, at the last sample
 };
 
 struct MotionReport {

@@ -15,8 +15,8 @@ enum class GoalError {
 };
 
 /// A goal refused or aborted: the code and one text for the user. The text starts with the words
-/// joint_trajectory_controller uses for the case, where it has any, and goes on with a sentence that names joint, point,
-/// value, allowed range and what to do.
+/// joint_trajectory_controller uses for the case, where it has any, and goes on with a sentence that names
+/// joint, point, value, allowed range and what to do.
 struct Refusal {
   GoalError code = GoalError::InvalidGoal;
   std::string text;

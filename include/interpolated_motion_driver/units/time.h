@@ -2,16 +2,18 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ratio>
 
 /// The kinds of time in the driver. Each has its own type, so they mix only through a named conversion:
 ///
-/// | type                | clock                                   | used for                                  |
+/// | type                | clock                                   | used for |
 /// |---------------------|-----------------------------------------|-------------------------------------------|
-/// | `HostTime`          | the host's monotonic clock              | everything on the host, bus time stamps   |
-/// | `GoalTime`          | start of a trajectory = 0               | paths, tolerances, knots                  |
-/// | `DriveMilliseconds` | samples of one EPOS drive, own crystal  | PVT records (1..255 ms each)              |
+/// | `HostTime`          | the host's monotonic clock              | everything on the host, bus time stamps
+/// | | `GoalTime`          | start of a trajectory = 0               | paths, tolerances, knots | |
+/// `DriveMilliseconds` | samples of one EPOS drive, own crystal  | PVT records (1..255 ms each) |
 ///
-/// ROS time exists in `node/` only. The host clock is never read below `transport/` and `node/`: time is a parameter.
+/// ROS time exists in `node/` only. The host clock is never read below `transport/` and `node/`: time is a
+/// parameter.
 namespace interpolated_motion {
 
 /// Tag of the host's monotonic clock. It has no `now()`: whoever needs the time is given it.
@@ -34,6 +36,9 @@ using GoalTime = std::chrono::duration<double>;
 
 /// Interpolator samples of an EPOS drive, on that drive's own crystal.
 using DriveMilliseconds = std::chrono::duration<std::int64_t, std::milli>;
+
+/// Servo ticks of a SilverLode drive, on that drive's own crystal: 120 us nominally (QCI-TD044).
+using ServoTicks = std::chrono::duration<std::int64_t, std::ratio<3, 25000>>;
 
 /// Length of a host duration in seconds.
 inline constexpr double seconds(HostDuration d) { return std::chrono::duration<double>(d).count(); }

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// What an axis is doing, the same for every kind of drive. Commands are allowed in the states named beside
+/// them.
+enum class AxisState {
+  Offline,      ///< no answer from the drive: reset_fault() looks for it again
+  Configuring,  ///< being found, identified, verified and parameterised
+  Disabled,     ///< power stage off: enable()
+  Enabling,
+  Ready,     ///< enabled, at rest, FIFO empty: plan(), load(), disable()
+  Loading,   ///< FIFO being emptied, filled and verified
+  Loaded,    ///< waits for arm()
+  Moving,    ///< the drive plays its FIFO
+  Stopping,  ///< brakes by its own deceleration, then empties its FIFO
+  Fault,     ///< the drive is in fault, or it did not do what it was told: reset_fault()
+};
+
+const char* to_string(AxisState state);
+
+/// A report of position and velocity by the drive, at the time it was latched.
+struct AxisFeedback {
+  HostTime time{};
+  double position = 0.0;  ///< rad
+  double velocity = 0.0;  ///< rad/s
+};
+
+/// What is published of an axis besides its feedback.
+struct AxisStatus {
+  bool online = false;
+  std::string state;
+  std::uint16_t statusword = 0;
+  std::int8_t mode = 0;
+  double demand_position = 0.0;  ///< rad
+  double following_error = 0.0;  ///< rad
+  std::uint16_t error_code = 0;
+  std::string error_text;
+  std::uint32_t capacity = 0;  ///< records
+  std::uint32_t fill = 0;      ///< records
+  double fill_time = 0.0;      ///< s
+  bool underflow_warning = false;
+  bool overflow_warning = false;
+  bool velocity_warning = false;
+  bool acceleration_warning = false;
+  std::uint32_t underruns = 0;
+  std::uint32_t overflows = 0;
+  std::uint32_t refused_writes = 0;
+  std::uint64_t records_sent = 0;
+  double clock_error_ppm = 0.0;
+};
+
+/// Figures of the plan that was played last.
+struct AxisReport {
+  std::uint64_t records_sent = 0;
+  std::uint32_t minimum_fill = 0;  ///< records, while moving and more were to come
+  std::uint32_t underruns = 0;
+};
+
+/// When a record of a plan may and must cross the bus, as goal time, and how long it keeps the bus.
+struct RecordSlot {
+  GoalTime release{0.0};   ///< a place in the FIFO is free from then on
+  GoalTime deadline{0.0};  ///< it must be in the FIFO by then
+};
+
+/// One drive as the host sees it: found, verified, enabled, fed and stopped through this interface, whatever
+/// its kind. Sans-IO: it is called with the time, and its frames go through the master of its bus. Commands
+/// return at once; their progress is seen in state(). A command that fails ends in Fault or Offline with a
+/// reason in fault_text().
+class Axis {
+ public:
+  virtual ~Axis() = default;
+
+  virtual const std::string& joint() const = 0;
+  virtual const std::string& bus() const = 0;
+  virtual AxisState state() const = 0;
+  /// Why the axis is Offline or in Fault, as one sentence with joint, bus, node and what to do. Empty
+  /// otherwise.
+  virtual const std::string& fault_text() const = 0;
+
+  /// Does what is due at `now`.
+  virtual void poll(HostTime now) = 0;
+  virtual HostTime next_deadline() const = 0;
+
+  virtual void bring_up(HostTime now) = 0;
+  virtual void enable(HostTime now) = 0;
+  virtual void disable(HostTime now) = 0;
+  /// Clears a fault; an axis that was lost is looked for again. Ends in Disabled.
+  virtual void reset_fault(HostTime now) = 0;
+
+  /// Where the drive's demand rests, in joint units. Valid in Disabled, Ready.
+  virtual double rest_position() const = 0;
+  /// Encodes `path` for the drive without sending anything. Refused plans leave the axis as it was.
+  virtual std::optional<Refusal> plan(const trajectory::Path& path) = 0;
+  /// The records of the plan, for the budget of the bus.
+  virtual std::vector<RecordSlot> record_slots() const = 0;
+  /// Seconds of bus one record takes, as share of the bus that records may fill.
+  virtual double record_bus_time() const = 0;
+  /// Loads the plan into the FIFO and verifies that it got there: Loading, then Loaded.
+  virtual void load(HostTime now) = 0;
+  /// Puts the start command on the bus; the drive obeys at the next start signal of its bus (EPOS: SYNC).
+  virtual void arm(HostTime now) = 0;
+  /// Brakes by the drive's own deceleration and empties the FIFO: Stopping, then Ready. Also ends Loading and
+  /// Loaded.
+  virtual void stop(HostTime now) = 0;
+
+  /// Goal time the drive is playing at host time `when` (before the path's start while not started).
+  virtual GoalTime playback(HostTime when) const = 0;
+  /// True once the drive has played the whole plan and left its interpolation by itself.
+  virtual bool finished() const = 0;
+  /// Latest position and velocity from the drive.
+  virtual const AxisFeedback& feedback() const = 0;
+  virtual void status(HostTime now, AxisStatus& out) const = 0;
+  virtual AxisReport report() const = 0;
+};
+
+}  // namespace interpolated_motion::axis

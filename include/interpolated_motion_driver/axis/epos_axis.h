@@ -1,0 +1,193 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/epos_bring_up.h"
+#include "interpolated_motion_driver/axis/epos_parameters.h"
+#include "interpolated_motion_driver/axis/epos_telemetry.h"
+#include "interpolated_motion_driver/axis/playback_clock.h"
+#include "interpolated_motion_driver/axis/record_feed.h"
+#include "interpolated_motion_driver/axis/sdo_sequence.h"
+#include "interpolated_motion_driver/protocol/canopen/master.h"
+#include "interpolated_motion_driver/protocol/cia402/statusword.h"
+
+namespace interpolated_motion::axis {
+
+/// A maxon EPOS drive in Interpolated Position Mode (mode 7) on CANopen.
+///
+/// A goal's way: plan() encodes; load() empties the FIFO, checks where the drive stands, fills the FIFO and
+/// compares 0x60C4:04 with what was sent; arm() sends controlword 0x1F, obeyed at the next SYNC; then records
+/// follow by time, on the drive's own clock as PlaybackClock knows it; the record with time 0 ends the mode;
+/// controlword 0x0F follows. stop() sets halt, waits for standstill, leaves the mode while halt is still set
+/// (clearing halt first could resume the motion), empties the FIFO.
+class EposAxis : public Axis {
+ public:
+  /// `master` and `node` must outlive the axis. Throws std::invalid_argument, naming joint and parameter,
+  /// when a limit is not finite.
+  EposAxis(EposAxisParameters parameters, canopen::Master& master, canopen::NodeLink& node);
+
+  const std::string& joint() const override { return parameters_.joint; }
+  const std::string& bus() const override { return master_.bus_name(); }
+  AxisState state() const override;
+  const std::string& fault_text() const override { return fault_text_; }
+
+  void poll(HostTime now) override;
+  HostTime next_deadline() const override;
+
+  void bring_up(HostTime now) override;
+  void enable(HostTime now) override;
+  void disable(HostTime now) override;
+  void reset_fault(HostTime now) override;
+
+  double rest_position() const override;
+  std::optional<Refusal> plan(const trajectory::Path& path) override;
+  std::vector<RecordSlot> record_slots() const override { return planned_.slots(planned_start_); }
+  double record_bus_time() const override { return parameters_.record_bus_time; }
+  void load(HostTime now) override;
+  void arm(HostTime now) override;
+  void stop(HostTime now) override;
+
+  GoalTime playback(HostTime when) const override { return path_start_ + GoalTime{clock_.elapsed(when)}; }
+  bool finished() const override { return finished_; }
+  const AxisFeedback& feedback() const override { return feedback_; }
+  void status(HostTime now, AxisStatus& out) const override;
+  AxisReport report() const override;
+
+  const EposFacts& facts() const { return facts_; }
+  /// "Joint joint1 (can0 node 1): maxon EPOS2 70/10, firmware 0x2126, velocity unit 0.001 rpm, ..."
+  std::string description() const;
+
+ private:
+  enum class Phase {
+    Offline,
+    Probing,  ///< waits for the first answer
+    Configuring,
+    StartingNode,  ///< waits for the first statusword
+    Disabled,
+    SelectingMode,
+    Enabling,
+    ReadingRest,
+    Ready,
+    Clearing,
+    Filling,
+    Verifying,
+    Loaded,
+    Armed,  ///< start commanded, not yet confirmed
+    Moving,
+    Ending,  ///< played; waits until bit 4 of the controlword is off
+    Braking,
+    Emptying,
+    Disabling,
+    Resetting,
+    Fault,
+  };
+
+  /// A controlword that had no effect within this time is sent again: its frame, or the SYNC behind it, can
+  /// get lost.
+  static constexpr HostDuration kRepeatCommand = std::chrono::milliseconds(100);
+
+  void run_phase(HostTime now);
+  void poll_probing(HostTime now);
+  void poll_configuring(HostTime now);
+  void poll_starting_node(HostTime now);
+  void poll_selecting_mode(HostTime now);
+  void poll_enabling(HostTime now);
+  void poll_reading_rest(HostTime now);
+  void poll_clearing(HostTime now);
+  void poll_filling(HostTime now);
+  void poll_verifying(HostTime now);
+  void poll_armed(HostTime now);
+  void poll_moving(HostTime now);
+  void poll_ending(HostTime now);
+  void poll_braking(HostTime now);
+  void poll_emptying(HostTime now);
+  void poll_disabling(HostTime now);
+  void poll_resetting(HostTime now);
+
+  void on_tpdo(int number, const canopen::Frame& frame, HostTime time);
+  void note_buffer_errors(cia402::BufferStatus before);
+  void collect_emergencies();
+  void watch_heartbeat(HostTime now);
+  void watch_power_stage(HostTime now);
+  void watch_motion(HostTime now);
+
+  void enter(Phase phase, HostTime now);
+  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
+  bool is_motion_phase() const { return phase_ == Phase::Armed || phase_ == Phase::Moving; }
+  bool must_be_enabled() const;
+  std::string who() const;
+  void fail(const std::string& reason, HostTime now);
+  void fail_in_motion(const std::string& reason, HostTime now);
+  void go_offline(const std::string& reason, HostTime now);
+  std::string drive_fault() const;
+
+  void command(std::uint16_t controlword, HostTime now);
+  bool applied() const;
+  bool walk_to(cia402::State target, HostTime now);
+  bool sequence_done(HostTime now);
+  SdoSequence::Step read_mode();
+  void read_rest(std::vector<SdoSequence::Step> before, Phase phase, HostTime now);
+
+  void start_loading(HostTime now);
+  void start_emptying(HostTime now);
+  void feed(HostTime now);
+  void start_clock();
+  void take_buffer_report(HostTime now);
+  void learn_release(std::size_t used, HostTime when);
+  void learn_clock(std::size_t used, HostTime when);
+  void compare_fill(std::size_t used, HostTime when, HostTime now);
+  void poll_fill_by_sdo(HostTime now);
+  void end_of_motion(HostTime now);
+  std::size_t used_records() const { return facts_.capacity - telemetry_.free_records; }
+  double counts_per_second(std::int32_t velocity) const;
+
+  EposAxisParameters parameters_;
+  canopen::Master& master_;
+  canopen::NodeLink& node_;
+  SdoSequence sequence_;
+  EposFacts facts_;
+  EposTelemetry telemetry_;
+  AxisFeedback feedback_;
+
+  Phase phase_ = Phase::Offline;
+  HostTime phase_since_{};
+  HostTime polled_{};
+  HostTime bring_up_since_{};
+  bool configured_ = false;
+  std::string fault_text_;
+  std::uint16_t error_code_ = 0;
+  std::string error_text_;
+
+  std::uint16_t commanded_ = 0;
+  HostTime command_time_{};
+  std::uint64_t commands_due_ = 0;  ///< confirmations of RPDO2 after which the last command is on the bus
+
+  std::int32_t rest_counts_ = 0;
+  RecordFeed planned_;
+  GoalTime planned_start_{0.0};
+  RecordFeed feed_;
+  GoalTime path_start_{0.0};
+  PlaybackClock clock_;
+  bool finished_ = false;
+  int load_attempts_ = 0;
+  std::uint64_t records_due_ = 0;  ///< confirmations of RPDO1 after which all records sent are on the bus
+  std::uint32_t held_records_ = 0;
+  std::uint64_t reports_taken_ = 0;
+  /// Whether the drive takes a record out of its FIFO when it sets out for it (1) or when it has reached it
+  /// (0): the documents do not say; seen from the first report of a motion.
+  std::optional<std::size_t> early_release_;
+  int fill_mismatches_ = 0;
+  HostTime fill_asked_{};
+
+  std::uint32_t minimum_fill_ = 0;
+  std::uint32_t underruns_ = 0;
+  std::uint32_t underruns_at_load_ = 0;
+  std::uint32_t overflows_ = 0;
+  std::uint32_t refused_writes_ = 0;
+  std::uint64_t records_sent_ = 0;
+};
+
+}  // namespace interpolated_motion::axis

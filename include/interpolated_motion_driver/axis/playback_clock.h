@@ -1,0 +1,52 @@
+#pragma once
+
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// Estimates how far a drive has played its plan: the drive's own elapsed time as a function of host time.
+///
+/// The start is known (the start signal on the bus, to within one sample of the drive), the drive's crystal
+/// is not: its rate lies within +-`max_error` of the host's. Each look at the drive's FIFO says "by then it
+/// had played at least this much" or "not yet that much"; both bound the rate, and the estimate is the rate
+/// nearest to 1 within the bounds. So the error of the estimate never exceeds the interval between two looks
+/// at the FIFO, however long the motion.
+class PlaybackClock {
+ public:
+  /// `max_error`: largest relative error of a drive's crystal, e.g. 5e-4. `sample`: uncertainty of the start,
+  /// s.
+  explicit PlaybackClock(double max_error = 5e-4, double sample = 1e-3);
+
+  void start(HostTime start);
+  bool running() const { return running_; }
+  void stop() { running_ = false; }
+  HostTime start_time() const { return start_; }
+
+  /// Seconds of drive time played at host time `when`; 0 before the start.
+  double elapsed(HostTime when) const;
+  /// The least and the most the drive can have played at `when`, by all that has been observed.
+  double least_elapsed(HostTime when) const;
+  double most_elapsed(HostTime when) const;
+  /// Host time at which the drive will have played `drive_seconds`.
+  HostTime host_time(double drive_seconds) const;
+
+  /// At `when` the drive had played at least `drive_seconds`.
+  void observe_at_least(HostTime when, double drive_seconds);
+  /// At `when` the drive had not yet played `drive_seconds`.
+  void observe_less_than(HostTime when, double drive_seconds);
+
+  /// Estimated error of the drive's clock against the host's, ppm.
+  double error_ppm() const;
+
+ private:
+  double rate() const;
+
+  double max_error_;
+  double sample_;
+  bool running_ = false;
+  HostTime start_{};
+  double lowest_rate_ = 1.0;
+  double highest_rate_ = 1.0;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/start_signal.h"
+#include "interpolated_motion_driver/motion/active_goal.h"
+#include "interpolated_motion_driver/motion/requests.h"
+#include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/snapshot.h"
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/goal_rules.h"
+#include "interpolated_motion_driver/trajectory/tolerances.h"
+#include "interpolated_motion_driver/units/expected.h"
+
+namespace interpolated_motion::motion {
+
+struct GroupParameters {
+  trajectory::GoalRules rules;
+  trajectory::Tolerances tolerances;
+  HostDuration settle_timeout =
+      std::chrono::milliseconds(500);  ///< used where a goal allows no time for settling
+  bool enable_on_start = true;
+};
+
+/// A group of axes that move together, on any mix of buses and kinds of drives. A goal goes through: checked
+/// and encoded whole for every axis, loaded into all FIFOs, common start, supervised, settled. Whatever goes
+/// wrong on the way brings all axes to rest, and nothing moves again without a new goal.
+class Group {
+ public:
+  /// The axes and start signals must outlive the group; axes in the order of `parameters.rules.joints`.
+  Group(GroupParameters parameters, std::vector<axis::Axis*> axes, std::vector<axis::StartSignal*> signals,
+        HostTime now);
+
+  void poll(HostTime now);
+  HostTime next_deadline() const;
+  GroupState state() const { return state_; }
+  /// Why the group is in Fault; empty otherwise.
+  const std::string& fault() const { return fault_; }
+
+  /// See hardware::MotionHardware for the meaning of all of these.
+  Expected<GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
+  void cancel(GoalId goal, HostTime now);
+  std::optional<GoalResult> take_goal_result();
+
+  RequestId request(RequestKind kind, HostTime now);
+  std::optional<RequestResult> take_request_result() { return requests_.take_result(); }
+
+  void snapshot(HostTime now, Snapshot& out) const;
+  MotionReport report() const;
+  bool query(HostTime time, std::vector<trajectory::State>& out) const;
+  /// The goal in force, whose paths the drives are playing or have played last. Null before the first goal
+  /// has been loaded.
+  const ActiveGoal* last_goal() const { return last_ ? &*last_ : nullptr; }
+
+ private:
+  void poll_starting(HostTime now);
+  void poll_enabling(HostTime now);
+  void poll_preparing(HostTime now);
+  void poll_moving(HostTime now);
+  void poll_settling(HostTime now);
+  void poll_stopping(HostTime now);
+  void watch_for_faults();
+
+  void bring_up(HostTime now);
+  void start_enabling(HostTime now);
+  void start_disabling(HostTime now);
+  void disable(HostTime now);
+  void reset(HostTime now);
+  void halt(HostTime now, const std::string& why);
+  void stop(HostTime now, Ending ending);
+  void abort_with_fault_of(const axis::Axis& axis, HostTime now);
+  void enter(GroupState state);
+  void enter_rest_state(HostTime now);
+  void enter_fault();
+  void signal_all(HostTime now);
+
+  std::optional<Refusal> refuse_now() const;
+  Expected<GoalAcceptance, Refusal> replace_running(const trajectory::Goal& goal, HostTime now);
+  GoalAcceptance accept_stop(HostTime now);
+  Expected<trajectory::GoalPlan, Refusal> plan(const trajectory::Goal& goal, HostTime now);
+  std::optional<Refusal> plan_axes(const trajectory::GoalPlan& plan);
+  std::optional<Refusal> check_budget(const trajectory::GoalPlan& plan) const;
+  void start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now);
+  void start_pending(HostTime now);
+  void start_motion(HostTime now);
+  void finish_goal(const Ending& ending);
+  void finish_stop_goals();
+  void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);
+
+  void sample_feedback();
+  bool feedback_since(HostTime when) const;
+  std::optional<Refusal> find_path_violation();
+  std::optional<Refusal> find_goal_violation();
+  HostTime settle_deadline() const;
+  trajectory::State desired(std::size_t joint, HostTime when) const;
+  std::vector<trajectory::State> present() const;
+
+  bool in_motion() const;
+  bool all(axis::AxisState state) const;
+  bool any(axis::AxisState state) const;
+  const axis::Axis* faulted() const;
+  std::string faults() const;
+
+  GroupParameters parameters_;
+  std::vector<axis::Axis*> axes_;
+  std::vector<axis::StartSignal*> signals_;
+  GroupState state_ = GroupState::Starting;
+  bool enable_when_found_ = false;
+  bool disable_when_stopped_ = false;
+  std::string fault_;
+  HostTime in_force_since_ = kNever;  ///< start of the trajectory (or rest) that query() answers for
+
+  GoalId next_goal_ = 1;
+  std::optional<ActiveGoal> active_;
+  std::optional<ActiveGoal> last_;
+  std::optional<PendingGoal> pending_;
+  std::optional<Ending> ending_;
+  std::vector<GoalId> stop_goals_;
+  std::deque<GoalResult> results_;
+  Requests requests_;
+
+  std::vector<trajectory::State> desired_;  ///< scratch, at each axis' latest feedback
+  std::vector<trajectory::State> actual_;
+};
+
+}  // namespace interpolated_motion::motion

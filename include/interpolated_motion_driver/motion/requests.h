@@ -1,0 +1,36 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/snapshot.h"
+
+namespace interpolated_motion::motion {
+
+enum class RequestKind { Enable, Disable, ResetFaults, Halt, ClearBuffers };
+
+/// Requests that wait until the group has reached the state they ask for.
+class Requests {
+ public:
+  RequestId add(RequestKind kind);
+  /// Ends `id` at once.
+  void finish(RequestId id, bool success, std::string message);
+  /// Ends every request whose outcome `state` decides. `fault` is the reason of a Fault.
+  void settle(GroupState state, const std::string& fault);
+  std::optional<RequestResult> take_result();
+
+ private:
+  struct Pending {
+    RequestId id;
+    RequestKind kind;
+  };
+
+  RequestId next_ = 1;
+  std::vector<Pending> pending_;
+  std::deque<RequestResult> results_;
+};
+
+}  // namespace interpolated_motion::motion

@@ -1,0 +1,302 @@
+#include "interpolated_motion_driver/axis/epos_bring_up.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/axis/epos_telemetry.h"
+#include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
+#include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
+#include "interpolated_motion_driver/protocol/cia402/modes.h"
+
+namespace interpolated_motion::axis {
+
+namespace object = cia402::object;
+using canopen::sdo_write;
+using canopen::SdoResult;
+using Step = SdoSequence::Step;
+using Steps = std::vector<Step>;
+using Failure = std::optional<std::string>;
+
+namespace {
+
+constexpr int kFinestVelocityNotation = -3;
+
+// ---- identity
+// ------------------------------------------------------------------------------------------------------
+
+Step read_device_type() {
+  return SdoSequence::read(object::kDeviceType, [](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    if ((r.as_u32() & 0xFFFFu) == cia402::kServoDriveProfile) return std::nullopt;
+    return fmt::format(
+        "the device is no servo drive: device type 0x1000 is 0x{:08X}, its low word must be 402 (CiA 402)",
+        r.as_u32());
+  });
+}
+
+Step read_identity(canopen::ObjectAddress address, std::uint32_t& to) {
+  return SdoSequence::read(address, [&to](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    to = r.as_u32();
+    return std::nullopt;
+  });
+}
+
+Step read_vendor(EposFacts& facts) {
+  return SdoSequence::read(object::kVendorId, [&facts](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    facts.identity.vendor = r.as_u32();
+    if (facts.identity.is_maxon()) return std::nullopt;
+    return fmt::format(
+        "the device is not a maxon drive: vendor id 0x1018:01 is 0x{:08X}, maxon's is 0x{:08X}", r.as_u32(),
+        cia402::kMaxonVendorId);
+  });
+}
+
+// ---- what the driver relies on
+// -------------------------------------------------------------------------------------
+
+/// Without these objects a drive has no Interpolated Position Mode, and is refused by its name.
+Step require_interpolation_object(canopen::ObjectAddress address, EposFacts& facts) {
+  return SdoSequence::read(address, [&facts](const SdoResult& r) -> Failure {
+    if (r.ok) return std::nullopt;
+    if (r.abort_code != canopen::abort_code::kNoObject) return r.text();
+    return fmt::format(
+        "{} has no Interpolated Position Mode (object {} does not exist; EPOS4 has none up to firmware "
+        "0x0170). "
+        "Use an EPOS2, or another drive type in the configuration",
+        cia402::describe_identity(facts.identity), canopen::to_string(r.address));
+  });
+}
+
+Step require_value(canopen::ObjectAddress address, std::int64_t wanted, const char* meaning) {
+  return SdoSequence::read(address, [wanted, meaning](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    const std::int64_t found = wanted < 0 ? r.as_i64() : static_cast<std::int64_t>(r.as_u64());
+    if (found == wanted) return std::nullopt;
+    return fmt::format("object {} ({}) is {}, it must be {}", canopen::to_string(r.address), meaning, found,
+                       wanted);
+  });
+}
+
+Step require_mode_support() {
+  return SdoSequence::read(object::kSupportedDriveModes, [](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    if (cia402::supports(r.as_u32(), cia402::Mode::InterpolatedPosition)) return std::nullopt;
+    return fmt::format("the drive does not support mode 7: supported drive modes 0x6502 are {}",
+                       cia402::supported_modes_text(r.as_u32()));
+  });
+}
+
+Step read_capacity(EposFacts& facts) {
+  return SdoSequence::read(object::kMaximumBufferSize, [&facts](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.text();
+    facts.capacity = r.as_u32();
+    if (facts.capacity >= 4 && facts.capacity <= cia402::kFifoRecords) return std::nullopt;
+    return fmt::format("the FIFO's size 0x60C4:01 is {}, it must be within 4..{}", facts.capacity,
+                       cia402::kFifoRecords);
+  });
+}
+
+void append(Steps& steps, Steps more) { std::move(more.begin(), more.end(), std::back_inserter(steps)); }
+
+Steps verification(EposFacts& facts) {
+  return {read_device_type(),
+          read_vendor(facts),
+          read_identity(object::kProductCode, facts.identity.product),
+          read_identity(object::kRevisionNumber, facts.identity.revision),
+          read_identity(object::kSerialNumber, facts.identity.serial),
+          require_interpolation_object(object::kInterpolationSubMode, facts),
+          require_interpolation_object(object::kMaximumBufferSize, facts),
+          require_interpolation_object(object::kBufferStatus, facts),
+          read_capacity(facts),
+          require_mode_support(),
+          require_value(object::kInterpolationSubMode, cia402::kCubicSplineSubMode,
+                        "interpolation sub mode, -1 is PVT"),
+          require_value(object::kInterpolationPeriod, 1, "interpolation period in ms"),
+          require_value(object::kInterpolationTimeIndex, -3, "interpolation time index"),
+          require_value(object::kPositionNotation, 0, "position notation"),
+          require_value(object::kPositionDimension, cia402::kPositionDimensionQc,
+                        "position dimension, 0xAC is qc"),
+          require_value(object::kVelocityDimension, cia402::kVelocityDimensionRpm,
+                        "velocity dimension, 0xA4 is rpm"),
+          require_value(object::kAccelerationNotation, 0, "acceleration notation"),
+          require_value(object::kAccelerationDimension, cia402::kVelocityDimensionRpm,
+                        "acceleration dimension, 0xA4 is rpm/s")};
+}
+
+// ---- limits and units
+// ----------------------------------------------------------------------------------------------
+
+std::uint32_t to_u32(double value) {
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(value), 1.0, 4294967295.0));
+}
+
+Step write_u32(canopen::ObjectAddress address, std::uint32_t value) {
+  return SdoSequence::write(sdo_write<std::uint32_t>(address, value));
+}
+
+struct VelocityUnitSearch {
+  const EposAxisParameters& parameters;
+  SdoSequence& sequence;
+  EposFacts& facts;
+};
+
+Steps try_velocity_notation(VelocityUnitSearch search, int notation);
+
+std::uint32_t velocity_limit(const VelocityUnitSearch& search, int notation) {
+  const double rpm = motor_limits(search.parameters).velocity * search.parameters.limit_margin;
+  return to_u32(rpm * std::pow(10.0, -notation));
+}
+
+/// The drive did not take a unit, or not the limits in it: the next coarser one is tried.
+Failure try_coarser(VelocityUnitSearch search, int notation, const SdoResult& refused) {
+  if (!refused.aborted_by_drive || notation == 0) return refused.text();
+  search.sequence.insert(try_velocity_notation(search, notation + 1));
+  return std::nullopt;
+}
+
+Step write_velocity_limit(VelocityUnitSearch search, int notation) {
+  const auto limit = sdo_write<std::uint32_t>(object::kMaxProfileVelocity, velocity_limit(search, notation));
+  return SdoSequence::write(limit, [search, notation](const SdoResult& r) -> Failure {
+    if (!r.ok) return try_coarser(search, notation, r);
+    search.facts.velocity_notation = notation;
+    search.facts.max_velocity = velocity_limit(search, notation);
+    const double warn = motor_limits(search.parameters).velocity * std::pow(10.0, -notation);
+    search.sequence.insert({write_u32(object::kProfileVelocity, to_u32(warn))});
+    return std::nullopt;
+  });
+}
+
+/// The finest velocity unit keeps the rounding of the records' velocities out of the path: an error dv of a
+/// knot's velocity moves a cubic piece of length h by up to h dv / 4.
+Steps try_velocity_notation(VelocityUnitSearch search, int notation) {
+  if (velocity_limit(search, notation) > static_cast<std::uint32_t>(cia402::kMaxRecordVelocity) &&
+      notation < 0) {
+    return try_velocity_notation(search, notation + 1);
+  }
+  const auto unit = sdo_write<std::int8_t>(object::kVelocityNotation, static_cast<std::int8_t>(notation));
+  return {SdoSequence::write(unit, [search, notation](const SdoResult& r) -> Failure {
+    if (!r.ok) return try_coarser(search, notation, r);
+    search.sequence.insert({write_velocity_limit(search, notation)});
+    return std::nullopt;
+  })};
+}
+
+Steps motion_limits(const EposAxisParameters& parameters, EposFacts& facts) {
+  const std::uint32_t acceleration = to_u32(motor_limits(parameters).acceleration);
+  facts.max_acceleration = to_u32(motor_limits(parameters).acceleration * parameters.limit_margin);
+  return {write_u32(object::kMaxAcceleration, facts.max_acceleration),
+          write_u32(object::kProfileAcceleration, acceleration),
+          write_u32(object::kProfileDeceleration, acceleration),
+          write_u32(object::kQuickStopDeceleration, acceleration)};
+}
+
+std::int32_t to_i32(double counts) {
+  constexpr double kLow = std::numeric_limits<std::int32_t>::min();
+  constexpr double kHigh = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(counts, kLow, kHigh));
+}
+
+/// The drive's own position limits lie two counts outside the joint's, so that rounding never trips them.
+Steps position_limits(const EposAxisParameters& parameters) {
+  double low = std::numeric_limits<std::int32_t>::min();
+  double high = std::numeric_limits<std::int32_t>::max();
+  const auto& limits = parameters.limits;
+  if (!limits.continuous && std::isfinite(limits.min_position) && std::isfinite(limits.max_position)) {
+    const double a = parameters.transmission.counts(limits.min_position);
+    const double b = parameters.transmission.counts(limits.max_position);
+    low = std::floor(std::min(a, b)) - 2.0;
+    high = std::ceil(std::max(a, b)) + 2.0;
+  }
+  return {SdoSequence::write(sdo_write<std::int32_t>(object::kMinPositionLimit, to_i32(low))),
+          SdoSequence::write(sdo_write<std::int32_t>(object::kMaxPositionLimit, to_i32(high)))};
+}
+
+Steps supervision(const EposAxisParameters& parameters) {
+  const auto ms = [](HostDuration d) {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(d).count();
+  };
+  const auto consumer = static_cast<std::uint32_t>(parameters.host_node_id) << 16 |
+                        static_cast<std::uint32_t>(ms(parameters.heartbeat_timeout));
+  const double counts =
+      std::abs(parameters.transmission.counts_per_radian()) * parameters.max_following_error;
+  return {SdoSequence::write(sdo_write<std::uint16_t>(
+              object::kProducerHeartbeat, static_cast<std::uint16_t>(ms(parameters.heartbeat_period)))),
+          write_u32(object::kConsumerHeartbeat1, consumer),
+          SdoSequence::write(
+              sdo_write<std::int16_t>(object::kAbortConnectionOption, parameters.abort_connection_option)),
+          SdoSequence::write(
+              sdo_write<std::int16_t>(object::kFaultReactionOption, parameters.fault_reaction_option)),
+          write_u32(object::kMaxFollowingError, to_u32(counts))};
+}
+
+// ---- PDOs
+// ----------------------------------------------------------------------------------------------------------
+
+Steps writes(const std::vector<canopen::SdoWrite>& list) {
+  Steps steps;
+  for (const auto& write : list) steps.push_back(SdoSequence::write(write));
+  return steps;
+}
+
+Steps pdo(const canopen::PdoConfiguration& configuration, std::uint8_t node) {
+  return writes(canopen::pdo_configuration(configuration, node));
+}
+
+/// 0x60C4:02 can be mapped by maxon's application note, cannot by its EDS, and is mapped by robots that run:
+/// tried, and read by SDO where the drive refuses. Must be the last steps of the sequence.
+Steps buffer_pdo(std::uint8_t node, SdoSequence& sequence, EposFacts& facts) {
+  facts.free_records_mapped = true;
+  Steps steps = pdo(epos_pdo::buffer_tpdo(true), node);
+  for (Step& step : steps) {
+    if (step.write->value != cia402::pdo_entry::kFreeRecords.value()) continue;
+    step.check = [node, &sequence, &facts](const SdoResult& r) -> Failure {
+      if (r.ok) return std::nullopt;
+      if (!r.aborted_by_drive) return r.text();
+      facts.free_records_mapped = false;
+      sequence.replace_rest(pdo(epos_pdo::buffer_tpdo(false), node));
+      return std::nullopt;
+    };
+  }
+  return steps;
+}
+
+Steps pdos(std::uint8_t node, SdoSequence& sequence, EposFacts& facts) {
+  Steps steps = pdo(epos_pdo::record_rpdo(), node);
+  append(steps, pdo(epos_pdo::controlword_rpdo(), node));
+  append(steps, writes({canopen::pdo_disable(canopen::PdoDirection::Rpdo, 3, node),
+                        canopen::pdo_disable(canopen::PdoDirection::Rpdo, 4, node)}));
+  append(steps, pdo(epos_pdo::status_tpdo(), node));
+  append(steps, pdo(epos_pdo::motion_tpdo(), node));
+  append(steps, pdo(epos_pdo::demand_tpdo(), node));
+  append(steps, buffer_pdo(node, sequence, facts));
+  return steps;
+}
+
+}  // namespace
+
+double EposFacts::velocity_unit_rpm() const { return std::pow(10.0, velocity_notation); }
+
+MotorLimits motor_limits(const EposAxisParameters& parameters) {
+  const auto& transmission = parameters.transmission;
+  return {std::abs(transmission.motor_rpm(parameters.limits.max_velocity)),
+          std::abs(transmission.motor_rpm(parameters.limits.max_acceleration))};
+}
+
+std::vector<SdoSequence::Step> bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
+                                              SdoSequence& sequence, EposFacts& facts) {
+  Steps steps = verification(facts);
+  append(steps, supervision(parameters));
+  append(steps, try_velocity_notation({parameters, sequence, facts}, kFinestVelocityNotation));
+  append(steps, motion_limits(parameters, facts));
+  append(steps, position_limits(parameters));
+  append(steps, pdos(node, sequence, facts));
+  return steps;
+}
+
+}  // namespace interpolated_motion::axis

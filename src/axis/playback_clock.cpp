@@ -1,0 +1,55 @@
+#include "interpolated_motion_driver/axis/playback_clock.h"
+
+#include <algorithm>
+
+namespace interpolated_motion::axis {
+
+PlaybackClock::PlaybackClock(double max_error, double sample) : max_error_(max_error), sample_(sample) {}
+
+void PlaybackClock::start(HostTime start) {
+  running_ = true;
+  start_ = start;
+  lowest_rate_ = 1.0 - max_error_;
+  highest_rate_ = 1.0 + max_error_;
+}
+
+double PlaybackClock::rate() const { return std::clamp(1.0, lowest_rate_, highest_rate_); }
+
+double PlaybackClock::elapsed(HostTime when) const {
+  if (!running_ || when <= start_) return 0.0;
+  return seconds(when - start_) * rate();
+}
+
+double PlaybackClock::least_elapsed(HostTime when) const {
+  if (!running_ || when <= start_) return 0.0;
+  return std::max(0.0, seconds(when - start_) * lowest_rate_ - sample_);
+}
+
+double PlaybackClock::most_elapsed(HostTime when) const {
+  if (!running_ || when <= start_) return 0.0;
+  return seconds(when - start_) * highest_rate_ + sample_;
+}
+
+HostTime PlaybackClock::host_time(double drive_seconds) const {
+  return start_ + host_duration(drive_seconds / rate());
+}
+
+// The newest observation wins over a bound it contradicts: a crystal that changes with temperature shifts the
+// estimate. A wrong report cannot throw it further than `max_error_`.
+void PlaybackClock::observe_at_least(HostTime when, double drive_seconds) {
+  const double host = seconds(when - start_);
+  if (!running_ || host <= sample_) return;
+  lowest_rate_ = std::max(lowest_rate_, std::min((drive_seconds - sample_) / host, 1.0 + max_error_));
+  highest_rate_ = std::max(highest_rate_, lowest_rate_);
+}
+
+void PlaybackClock::observe_less_than(HostTime when, double drive_seconds) {
+  const double host = seconds(when - start_);
+  if (!running_ || host <= sample_) return;
+  highest_rate_ = std::min(highest_rate_, std::max((drive_seconds + sample_) / host, 1.0 - max_error_));
+  lowest_rate_ = std::min(lowest_rate_, highest_rate_);
+}
+
+double PlaybackClock::error_ppm() const { return running_ ? (rate() - 1.0) * 1e6 : 0.0; }
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,266 @@
+#include "interpolated_motion_driver/motion/group.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace interpolated_motion::motion {
+
+using axis::AxisState;
+
+namespace {
+
+bool is_faulted(const axis::Axis& axis) {
+  return axis.state() == AxisState::Fault || axis.state() == AxisState::Offline;
+}
+
+/// The axis works towards nothing: it waits for a command.
+bool is_settled(const axis::Axis& axis) {
+  return axis.state() == AxisState::Disabled || axis.state() == AxisState::Ready || is_faulted(axis);
+}
+
+bool holds_motion(AxisState state) {
+  return state == AxisState::Loading || state == AxisState::Loaded || state == AxisState::Moving;
+}
+
+}  // namespace
+
+Group::Group(GroupParameters parameters, std::vector<axis::Axis*> axes,
+             std::vector<axis::StartSignal*> signals, HostTime now)
+    : parameters_(std::move(parameters)),
+      axes_(std::move(axes)),
+      signals_(std::move(signals)),
+      enable_when_found_(parameters_.enable_on_start),
+      desired_(axes_.size()),
+      actual_(axes_.size()) {
+  bring_up(now);
+}
+
+void Group::bring_up(HostTime now) {
+  for (axis::Axis* axis : axes_) axis->bring_up(now);
+  enter(GroupState::Starting);
+}
+
+void Group::poll(HostTime now) {
+  for (axis::Axis* axis : axes_) axis->poll(now);
+  switch (state_) {
+    case GroupState::Starting:
+      poll_starting(now);
+      break;
+    case GroupState::Enabling:
+      poll_enabling(now);
+      break;
+    case GroupState::Preparing:
+      poll_preparing(now);
+      break;
+    case GroupState::Moving:
+      poll_moving(now);
+      break;
+    case GroupState::Settling:
+      poll_settling(now);
+      break;
+    case GroupState::Stopping:
+      poll_stopping(now);
+      break;
+    case GroupState::Idle:
+    case GroupState::Disabled:
+      watch_for_faults();
+      break;
+    case GroupState::Fault:
+      break;
+  }
+  requests_.settle(state_, fault_);
+}
+
+HostTime Group::next_deadline() const {
+  HostTime next = kNever;
+  for (const axis::Axis* axis : axes_) next = std::min(next, axis->next_deadline());
+  if (state_ == GroupState::Preparing && active_ && all(AxisState::Loaded))
+    next = std::min(next, active_->start);
+  if (state_ == GroupState::Settling) next = std::min(next, settle_deadline());
+  return next;
+}
+
+void Group::poll_starting(HostTime now) {
+  if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
+  if (faulted()) return enter_fault();
+  enter_rest_state(now);
+  if (enable_when_found_ && state_ == GroupState::Disabled) start_enabling(now);
+  enable_when_found_ = false;
+}
+
+void Group::poll_enabling(HostTime now) {
+  if (faulted()) return enter_fault();
+  if (all(AxisState::Ready)) enter_rest_state(now);
+}
+
+void Group::poll_preparing(HostTime now) {
+  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (all(AxisState::Loaded) && now >= active_->start) start_motion(now);
+}
+
+void Group::poll_moving(HostTime now) {
+  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (auto violation = find_path_violation()) return stop(now, {GoalOutcome::Aborted, *violation});
+  const auto played = [](const axis::Axis* a) { return a->finished() && a->state() == AxisState::Ready; };
+  if (!std::all_of(axes_.begin(), axes_.end(), played)) return;
+  active_->ended = now;
+  enter(GroupState::Settling);
+}
+
+void Group::poll_settling(HostTime now) {
+  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (!feedback_since(active_->ended)) return;
+  const auto violation = find_goal_violation();
+  if (violation && now < settle_deadline()) return;
+  finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation} : Ending{GoalOutcome::Succeeded, {}});
+  enter_rest_state(now);
+}
+
+// Axes in fault stop by their own reaction; the others have been told to. The group is at rest when none
+// moves any more.
+void Group::poll_stopping(HostTime now) {
+  if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
+  if (ending_) finish_goal(*std::exchange(ending_, std::nullopt));
+  if (disable_when_stopped_ && !faulted()) {
+    if (any(AxisState::Ready)) return start_disabling(now);
+    if (!all(AxisState::Disabled)) return;
+  }
+  disable_when_stopped_ = false;
+  if (faulted()) {
+    fail_pending(faults());
+    return enter_fault();
+  }
+  enter_rest_state(now);
+  finish_stop_goals();
+  if (pending_) start_pending(now);
+}
+
+void Group::watch_for_faults() {
+  if (faulted()) enter_fault();
+}
+
+void Group::start_enabling(HostTime now) {
+  for (axis::Axis* axis : axes_) {
+    if (axis->state() == AxisState::Disabled) axis->enable(now);
+  }
+  signal_all(now);
+  enter(GroupState::Enabling);
+}
+
+void Group::start_disabling(HostTime now) {
+  for (axis::Axis* axis : axes_) {
+    if (axis->state() == AxisState::Ready) axis->disable(now);
+  }
+  signal_all(now);
+}
+
+void Group::reset(HostTime now) {
+  for (axis::Axis* axis : axes_) {
+    if (is_faulted(*axis)) axis->reset_fault(now);
+  }
+  enter(GroupState::Starting);
+}
+
+void Group::enter(GroupState state) {
+  state_ = state;
+  if (state != GroupState::Fault) fault_.clear();
+}
+
+void Group::enter_rest_state(HostTime now) {
+  enter(all(AxisState::Ready) ? GroupState::Idle : GroupState::Disabled);
+  in_force_since_ = state_ == GroupState::Idle ? now : kNever;
+}
+
+void Group::enter_fault() {
+  fault_ = faults();
+  enable_when_found_ = false;
+  enter(GroupState::Fault);
+  in_force_since_ = kNever;
+}
+
+void Group::signal_all(HostTime now) {
+  for (axis::StartSignal* signal : signals_) signal->signal(now);
+}
+
+void Group::stop(HostTime now, Ending ending) {
+  if (active_) ending_ = std::move(ending);
+  for (axis::Axis* axis : axes_) {
+    if (holds_motion(axis->state())) axis->stop(now);
+  }
+  signal_all(now);
+  enter(GroupState::Stopping);
+}
+
+void Group::abort_with_fault_of(const axis::Axis& axis, HostTime now) {
+  stop(now, {GoalOutcome::Aborted,
+             {GoalError::InvalidGoal, axis.fault_text() + " The other joints were stopped."}});
+}
+
+RequestId Group::request(RequestKind kind, HostTime now) {
+  const RequestId id = requests_.add(kind);
+  switch (kind) {
+    case RequestKind::Enable:
+      if (state_ == GroupState::Disabled) start_enabling(now);
+      if (state_ == GroupState::Starting) enable_when_found_ = true;
+      break;
+    case RequestKind::Disable:
+      enable_when_found_ = false;
+      disable(now);
+      break;
+    case RequestKind::ResetFaults:
+      if (state_ == GroupState::Fault) reset(now);
+      break;
+    case RequestKind::Halt:
+      halt(now, "halted by a call of ~halt");
+      break;
+    case RequestKind::ClearBuffers:
+      halt(now, "stopped by a call of ~clear_buffers");
+      break;
+  }
+  return id;
+}
+
+void Group::halt(HostTime now, const std::string& why) {
+  if (pending_) fail_pending(why);
+  if (in_motion()) stop(now, {GoalOutcome::Aborted, {GoalError::InvalidGoal, "The group was " + why + "."}});
+}
+
+void Group::disable(HostTime now) {
+  halt(now, "stopped since the drives are to be disabled");
+  if (state_ == GroupState::Fault || state_ == GroupState::Disabled || state_ == GroupState::Starting) return;
+  disable_when_stopped_ = true;
+  if (state_ == GroupState::Idle) {
+    start_disabling(now);
+    enter(GroupState::Stopping);
+  }
+}
+
+bool Group::in_motion() const {
+  return state_ == GroupState::Preparing || state_ == GroupState::Moving || state_ == GroupState::Settling;
+}
+
+bool Group::all(AxisState state) const {
+  return std::all_of(axes_.begin(), axes_.end(),
+                     [state](const axis::Axis* a) { return a->state() == state; });
+}
+
+bool Group::any(AxisState state) const {
+  return std::any_of(axes_.begin(), axes_.end(),
+                     [state](const axis::Axis* a) { return a->state() == state; });
+}
+
+const axis::Axis* Group::faulted() const {
+  const auto it =
+      std::find_if(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_faulted(*a); });
+  return it == axes_.end() ? nullptr : *it;
+}
+
+std::string Group::faults() const {
+  std::string text;
+  for (const axis::Axis* axis : axes_) {
+    if (is_faulted(*axis)) text += (text.empty() ? "" : " ") + axis->fault_text();
+  }
+  return text + " Remove the cause, call ~reset_faults, then ~enable.";
+}
+
+}  // namespace interpolated_motion::motion

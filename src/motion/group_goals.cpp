@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/motion/bus_budget.h"
+#include "interpolated_motion_driver/motion/group.h"
+#include "interpolated_motion_driver/trajectory/goal_planner.h"
+#include "interpolated_motion_driver/trajectory/goal_validation.h"
+
+namespace interpolated_motion::motion {
+
+Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, HostTime now) {
+  const auto& rules = parameters_.rules;
+  if (auto refusal = trajectory::validate_goal(goal, rules.joints, rules.allow_partial_joints))
+    return *refusal;
+  if (auto refusal = refuse_now()) return *refusal;
+  if (trajectory::is_stop_request(goal)) return accept_stop(now);
+  if (state_ != GroupState::Idle) return replace_running(goal, now);
+  auto planned = plan(goal, now);
+  if (!planned) return planned.error();
+  const GoalAcceptance acceptance{next_goal_++, planned.value().lead_in + planned.value().duration,
+                                  planned.value().warnings};
+  start_loading(acceptance.id, goal, std::move(planned.value()), now);
+  return acceptance;
+}
+
+std::optional<Refusal> Group::refuse_now() const {
+  switch (state_) {
+    case GroupState::Starting:
+      return Refusal{
+          GoalError::InvalidGoal,
+          "The drives are still being found and configured. Send the goal again in a few seconds."};
+    case GroupState::Disabled:
+    case GroupState::Enabling:
+      return Refusal{GoalError::InvalidGoal,
+                     "The drives are not enabled. Call ~enable, then send the goal again."};
+    case GroupState::Fault:
+      return Refusal{GoalError::InvalidGoal, "The group is in fault: " + fault_};
+    default:
+      break;
+  }
+  if (disable_when_stopped_) return Refusal{GoalError::InvalidGoal, "The drives are being disabled."};
+  return std::nullopt;
+}
+
+// The new goal is checked against where the group comes to rest, once it is there.
+Expected<GoalAcceptance, Refusal> Group::replace_running(const trajectory::Goal& goal, HostTime now) {
+  if (pending_) fail_pending("replaced by a newer goal", GoalOutcome::Preempted);
+  pending_ = PendingGoal{next_goal_++, goal};
+  if (in_motion()) stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
+  return GoalAcceptance{pending_->id, goal.points.back().time, {}};
+}
+
+GoalAcceptance Group::accept_stop(HostTime now) {
+  const GoalAcceptance acceptance{next_goal_++, GoalTime{0.0}, {}};
+  if (pending_) fail_pending("replaced by a stop", GoalOutcome::Preempted);
+  if (in_motion()) stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a stop."}});
+  stop_goals_.push_back(acceptance.id);
+  if (state_ == GroupState::Idle) finish_stop_goals();
+  return acceptance;
+}
+
+void Group::cancel(GoalId goal, HostTime now) {
+  if (pending_ && pending_->id == goal) fail_pending("cancelled", GoalOutcome::Preempted);
+  if (active_ && active_->id == goal && in_motion()) {
+    stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Cancelled."}});
+  }
+}
+
+std::optional<GoalResult> Group::take_goal_result() {
+  if (results_.empty()) return std::nullopt;
+  GoalResult result = std::move(results_.front());
+  results_.pop_front();
+  return result;
+}
+
+Expected<trajectory::GoalPlan, Refusal> Group::plan(const trajectory::Goal& goal, HostTime now) {
+  auto planned = trajectory::plan_goal(goal, parameters_.rules, present(), now);
+  if (!planned) return planned;
+  if (auto refusal = plan_axes(planned.value())) return *refusal;
+  if (auto refusal = check_budget(planned.value())) return *refusal;
+  return planned;
+}
+
+std::optional<Refusal> Group::plan_axes(const trajectory::GoalPlan& plan) {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (auto refusal = axes_[i]->plan(plan.paths[i])) return refusal;
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> Group::check_budget(const trajectory::GoalPlan& plan) const {
+  std::map<std::string, std::vector<BusDemand>> demands;
+  for (const axis::Axis* axis : axes_)
+    demands[axis->bus()].push_back({axis->record_slots(), axis->record_bus_time()});
+  for (const auto& [bus, demand] : demands) {
+    const auto missed = check_bus_budget(demand, GoalTime{0.0} - plan.lead_in);
+    if (!missed) continue;
+    return Refusal{
+        GoalError::InvalidGoal,
+        fmt::format(
+            "Bus {} cannot carry the goal: at {:.3f} s it needs {:.0f} records in a second, but its "
+            "share for records allows {:.0f} a second. Slow the goal down, use smoother points, raise "
+            "the bit rate, or put the drives on more buses.",
+            bus, missed->time.count(), missed->needed, 1.0 / demand.front().record_bus_time)};
+  }
+  return std::nullopt;
+}
+
+void Group::start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now) {
+  const HostTime start = goal.start ? *goal.start - host_duration(plan.lead_in.count()) : now;
+  auto tolerances = trajectory::merge_tolerances(parameters_.tolerances, parameters_.rules.joints, goal);
+  active_ = ActiveGoal{id, std::move(plan), std::move(tolerances), std::max(start, now)};
+  for (axis::Axis* axis : axes_) axis->load(now);
+  enter(GroupState::Preparing);
+}
+
+void Group::start_pending(HostTime now) {
+  const PendingGoal goal = *std::exchange(pending_, std::nullopt);
+  auto planned = plan(goal.goal, now);
+  if (planned) return start_loading(goal.id, goal.goal, std::move(planned.value()), now);
+  results_.push_back(
+      {goal.id, GoalOutcome::Aborted, planned.error().code,
+       "The goal replaced another one, and from where the group came to rest it is not possible: " +
+           planned.error().text});
+}
+
+void Group::start_motion(HostTime now) {
+  for (axis::Axis* axis : axes_) axis->arm(now);
+  signal_all(now);
+  active_->started = now;
+  in_force_since_ = now;
+  last_ = active_;
+  enter(GroupState::Moving);
+}
+
+void Group::finish_goal(const Ending& ending) {
+  if (!active_) return;
+  results_.push_back({active_->id, ending.outcome, ending.reason.code, ending.reason.text});
+  if (last_ && last_->id == active_->id) last_ = active_;
+  active_.reset();
+}
+
+void Group::finish_stop_goals() {
+  for (const GoalId id : stop_goals_)
+    results_.push_back({id, GoalOutcome::Succeeded, GoalError::InvalidGoal, ""});
+  stop_goals_.clear();
+}
+
+void Group::fail_pending(const std::string& why, GoalOutcome outcome) {
+  if (pending_) {
+    results_.push_back(
+        {pending_->id, outcome, GoalError::InvalidGoal, "The goal never started: " + why + "."});
+    pending_.reset();
+  }
+  for (const GoalId id : stop_goals_)
+    results_.push_back({id, GoalOutcome::Aborted, GoalError::InvalidGoal, why});
+  stop_goals_.clear();
+}
+
+}  // namespace interpolated_motion::motion

@@ -1,0 +1,91 @@
+#include "interpolated_motion_driver/motion/group.h"
+
+namespace interpolated_motion::motion {
+
+const char* to_string(GroupState state) {
+  switch (state) {
+    case GroupState::Starting:
+      return "starting";
+    case GroupState::Disabled:
+      return "disabled";
+    case GroupState::Enabling:
+      return "enabling";
+    case GroupState::Idle:
+      return "idle";
+    case GroupState::Preparing:
+      return "preparing";
+    case GroupState::Moving:
+      return "moving";
+    case GroupState::Settling:
+      return "settling";
+    case GroupState::Stopping:
+      return "stopping";
+    case GroupState::Fault:
+      return "fault";
+  }
+  return "unknown";
+}
+
+namespace {
+
+void copy_status(const axis::AxisStatus& from, JointSnapshot& to) {
+  to.online = from.online;
+  to.state = from.state;
+  to.statusword = from.statusword;
+  to.mode = from.mode;
+  to.demand_position = from.demand_position;
+  to.following_error = from.following_error;
+  to.error_code = from.error_code;
+  to.error_text = from.error_text;
+  to.capacity = from.capacity;
+  to.fill = from.fill;
+  to.fill_time = from.fill_time;
+  to.underflow_warning = from.underflow_warning;
+  to.overflow_warning = from.overflow_warning;
+  to.velocity_warning = from.velocity_warning;
+  to.acceleration_warning = from.acceleration_warning;
+  to.underruns = from.underruns;
+  to.overflows = from.overflows;
+  to.refused_writes = from.refused_writes;
+  to.records_sent = from.records_sent;
+  to.clock_error_ppm = from.clock_error_ppm;
+}
+
+}  // namespace
+
+void Group::snapshot(HostTime now, Snapshot& out) const {
+  out.time = now;
+  out.state = state_;
+  out.fault = fault_;
+  out.active_goal = active_ ? active_->id : 0;
+  out.goal_time = active_ ? axes_.front()->playback(now) : GoalTime{0.0};
+  out.goal_duration = active_ ? active_->plan.duration : GoalTime{0.0};
+  out.joints.resize(axes_.size());
+  axis::AxisStatus status;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    JointSnapshot& joint = out.joints[i];
+    const axis::AxisFeedback& feedback = axes_[i]->feedback();
+    joint.joint = axes_[i]->joint();
+    joint.bus = axes_[i]->bus();
+    joint.actual = {feedback.position, feedback.velocity, 0.0};
+    joint.desired = desired(i, feedback.time);
+    axes_[i]->status(now, status);
+    copy_status(status, joint);
+  }
+}
+
+MotionReport Group::report() const {
+  MotionReport report;
+  if (!last_) return report;
+  report.valid = true;
+  report.goal = last_->id;
+  report.duration = last_->plan.lead_in + last_->plan.duration;
+  for (const axis::Axis* axis : axes_) {
+    const axis::AxisReport figures = axis->report();
+    report.joints.push_back({axis->joint(), axis->bus(), figures.records_sent, figures.minimum_fill,
+                             figures.underruns, 0, 0.0, 0.0});
+  }
+  return report;
+}
+
+}  // namespace interpolated_motion::motion

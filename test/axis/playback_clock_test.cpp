@@ -1,0 +1,62 @@
+#include "interpolated_motion_driver/axis/playback_clock.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace interpolated_motion::axis {
+namespace {
+
+HostTime at(double s) { return HostTime{} + host_duration(s); }
+
+TEST(PlaybackClock, StandsAtZeroUntilItIsStarted) {
+  PlaybackClock clock;
+  EXPECT_DOUBLE_EQ(clock.elapsed(at(5.0)), 0.0);
+  clock.start(at(10.0));
+  EXPECT_DOUBLE_EQ(clock.elapsed(at(9.0)), 0.0);
+  EXPECT_DOUBLE_EQ(clock.elapsed(at(12.5)), 2.5);
+}
+
+TEST(PlaybackClock, BoundsAreThoseOfTheCrystalUntilSomethingIsSeen) {
+  PlaybackClock clock(1e-3, 1e-3);
+  clock.start(at(0.0));
+  EXPECT_NEAR(clock.least_elapsed(at(100.0)), 100.0 - 0.1 - 0.001, 1e-9);
+  EXPECT_NEAR(clock.most_elapsed(at(100.0)), 100.0 + 0.1 + 0.001, 1e-9);
+}
+
+// A drive 100 ppm fast passes a knot each 0.1 s of its own time; it is looked at each 10 ms.
+TEST(PlaybackClock, FindsTheRateOfADriveFromItsFifo) {
+  for (const double ppm : {-200.0, -100.0, 0.0, 35.0, 100.0}) {
+    PlaybackClock clock(5e-4, 1e-3);
+    clock.start(at(0.0));
+    const double rate = 1.0 + ppm * 1e-6;
+    for (int look = 1; look <= 60000; ++look) {
+      const double host = 0.01 * look;
+      const double passed = std::floor(host * rate / 0.1) * 0.1;
+      clock.observe_at_least(at(host), passed);
+      clock.observe_less_than(at(host), passed + 0.1);
+      ASSERT_NEAR(clock.elapsed(at(host)), host * rate, 0.011 + 0.001) << ppm << " ppm at " << host << " s";
+    }
+    EXPECT_NEAR(clock.error_ppm(), ppm, 20.0);
+  }
+}
+
+TEST(PlaybackClock, AWrongReportCannotThrowItFurtherThanACrystalCanBe) {
+  PlaybackClock clock(5e-4, 1e-3);
+  clock.start(at(0.0));
+  clock.observe_at_least(at(10.0), 500.0);
+  EXPECT_NEAR(clock.elapsed(at(10.0)), 10.0, 0.0051);
+  clock.observe_less_than(at(20.0), 1.0);
+  EXPECT_NEAR(clock.elapsed(at(20.0)), 20.0, 0.0101);
+}
+
+TEST(PlaybackClock, FollowsACrystalThatChanges) {
+  PlaybackClock clock(5e-4, 1e-3);
+  clock.start(at(0.0));
+  clock.observe_at_least(at(100.0), 100.02);
+  clock.observe_less_than(at(200.0), 199.99);
+  EXPECT_LT(clock.elapsed(at(200.0)), 199.992);
+}
+
+}  // namespace
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,78 @@
+#include "interpolated_motion_driver/axis/record_feed.h"
+
+#include <gtest/gtest.h>
+
+namespace interpolated_motion::axis {
+namespace {
+
+/// `count` records of `time` ms each.
+encoding::PvtStream stream(int count, std::uint8_t time) {
+  encoding::PvtStream stream;
+  for (int i = 1; i <= count; ++i) stream.records.push_back({100 * i, 0, time});
+  stream.duration = DriveMilliseconds(count * time);
+  return stream;
+}
+
+int send_all_due(RecordFeed& feed, double least_played, double played) {
+  int sent = 0;
+  for (; feed.next(least_played, played); ++sent) feed.mark_sent();
+  return sent;
+}
+
+TEST(RecordFeed, EndsWithARecordOfTimeZeroAtTheLastPosition) {
+  RecordFeed feed;
+  feed.load(stream(3, 100), {64, 10.0});
+  EXPECT_EQ(feed.size(), 4u);
+  for (int i = 0; i < 3; ++i) feed.mark_sent();
+  EXPECT_EQ(feed.next(0.0, 0.0), (PvtRecord{300, 0, 0}));
+  feed.mark_sent();
+  EXPECT_TRUE(feed.all_sent());
+  EXPECT_FALSE(feed.next(0.0, 0.0));
+}
+
+TEST(RecordFeed, NeverFillsTheFifoToTheBrim) {
+  RecordFeed feed;
+  feed.load(stream(200, 10), {64, 100.0});
+  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 62);
+  EXPECT_EQ(send_all_due(feed, 0.0099, 0.0101), 0) << "the drive may not have reached the first record yet";
+  EXPECT_EQ(send_all_due(feed, 0.0101, 0.0110), 1);
+}
+
+TEST(RecordFeed, KeepsTheHorizonAhead) {
+  RecordFeed feed;
+  feed.load(stream(200, 100), {64, 2.0});
+  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 20);
+  EXPECT_NEAR(feed.time_ahead(0.05), 1.95, 1e-12);
+  EXPECT_EQ(send_all_due(feed, 1.0, 1.0), 10);
+}
+
+TEST(RecordFeed, HoldsAtLeastFourRecordsHoweverShortTheHorizon) {
+  RecordFeed feed;
+  feed.load(stream(50, 250), {64, 0.1});
+  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 4);
+  EXPECT_EQ(send_all_due(feed, 0.24, 0.26), 1);
+}
+
+TEST(RecordFeed, CountsWhatHasBeenPlayed) {
+  RecordFeed feed;
+  feed.load(stream(3, 100), {64, 10.0});
+  EXPECT_EQ(feed.played(0.099), 0u);
+  EXPECT_EQ(feed.played(0.101), 1u);
+  EXPECT_EQ(feed.played(0.301), 4u) << "the record that ends the mode takes no time";
+}
+
+// The drive must find two records whenever it reaches one, and has 62 places to use.
+TEST(RecordFeed, SlotsTellWhenEachRecordMayAndMustComeOverTheBus) {
+  RecordFeed feed;
+  feed.load(stream(100, 10), {64, 100.0});
+  const auto slots = feed.slots(GoalTime{-0.5});
+  ASSERT_EQ(slots.size(), 101u);
+  EXPECT_DOUBLE_EQ(slots[0].deadline.count(), -0.5);
+  EXPECT_DOUBLE_EQ(slots[1].deadline.count(), -0.5);
+  EXPECT_NEAR(slots[2].deadline.count(), -0.5 + 0.010, 1e-12);
+  EXPECT_NEAR(slots[61].release.count(), -0.5, 1e-12);
+  EXPECT_NEAR(slots[62].release.count(), -0.5 + 0.010, 1e-12);
+}
+
+}  // namespace
+}  // namespace interpolated_motion::axis
