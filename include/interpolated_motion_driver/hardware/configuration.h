@@ -7,43 +7,42 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 
 namespace interpolated_motion::hardware {
 
-/// Where the drives of a bus are: behind a SocketCAN interface, a serial port, or emulated within the process.
-enum class TransportKind { Emulated, SocketCan, Serial };
+/// Where the drives of a bus are: emulated within the process.
+enum class TransportKind { Emulated };
 
 struct BusConfiguration {
   std::string name;
   TransportKind transport = TransportKind::Emulated;
-  std::string interface;                  ///< SocketCAN interface; default: the bus's name
-  std::uint32_t bitrate = 1'000'000;      ///< bit/s
-  double sync_period = 0.010;             ///< s, period of the SYNC object and so of position feedback
-  double heartbeat_period = 0.1;          ///< s, of the host's and the drives' heartbeats
-  double heartbeat_timeout = 0.5;         ///< s without a heartbeat until the other side counts as lost
-  int host_node_id = 127;                 ///< CANopen node id of this host
-  double max_load = 0.6;                  ///< share of the bit rate that motion records may fill, 0..1
-  double sdo_timeout = 0.2;               ///< s
+  std::uint32_t bitrate = 1'000'000;  ///< bit/s
+  double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
+  double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats
+  double heartbeat_timeout = 0.5;     ///< s without a heartbeat until the other side counts as lost
+  int host_node_id = 127;             ///< CANopen node id of this host
+  double max_load = 0.6;              ///< share of the bit rate that motion records may fill, 0..1
+  double sdo_timeout = 0.2;           ///< s
 };
 
 /// What the emulated drive of a joint does differently from a perfect one.
 struct EmulationConfiguration {
-  double clock_error_ppm = 0.0;
-  double initial_position = 0.0;  ///< rad, joint position at power-up
-  YAML::Node overrides;           ///< further parameters of the emulated drive, see docs/emulation.md
+  bool missing = false;             ///< there is no such drive on the bus
+  emulation::EposParameters drive;  ///< position in counts, whatever the joint's units
 };
 
 struct DriveConfiguration {
   std::string joint;
   std::string bus;
-  int node_id = 0;                        ///< 1..126
+  int node_id = 0;  ///< 1..126
   encoding::Transmission transmission;
-  trajectory::JointLimits limits;         ///< URDF limits, tightened by the configuration
-  double deviation_bound = 1.0;           ///< counts, worst deviation from the path at any drive sample
-  double max_following_error = 0.1;       ///< rad, written to 0x6065
-  double limit_margin = 1.2;              ///< drive-side fault limits (0x607F, 0x60C5) = joint limits times this
+  trajectory::JointLimits limits;    ///< URDF limits, tightened by the configuration
+  double deviation_bound = 1.0;      ///< counts, worst deviation from the path at any drive sample
+  double max_following_error = 0.1;  ///< rad, written to 0x6065
+  double limit_margin = 1.2;  ///< 1..10; drive-side fault limits (0x607F, 0x60C5) = joint limits times this
   EmulationConfiguration emulation;
 };
 
@@ -65,17 +64,18 @@ struct Configuration {
   ConstraintConfiguration constraints;
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;
-  double start_tolerance = 0.05;   ///< rad, of a goal's first point at t = 0 against the present position
-  double commit_horizon = 2.0;     ///< s of motion kept in the drives' FIFOs
-  double bring_up_timeout = 5.0;   ///< s for all drives to answer and be configured
-  double settle_timeout = 5.0;     ///< s after the last record for the joints to settle, when goal_time is 0
+  double start_tolerance = 0.05;  ///< rad, of a goal's first point at t = 0 against the present position
+  double commit_horizon = 2.0;    ///< s of motion kept in the drives' FIFOs
+  double bring_up_timeout = 5.0;  ///< s for all drives to answer and be configured
+  double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;
 };
 
-/// Reads the driver's part of the node's parameters (`joints`, `buses`, `drives`, `constraints`, ...). `node_keys` are
-/// further top-level keys that the node itself reads. `urdf` holds limits by joint name; joints that are not in it, or limits
-/// wider than the URDF's, are refused, as are unknown keys, wrong types and values out of range: throws
-/// std::invalid_argument whose text names the parameter, the value, the allowed range and what to do.
+/// Reads the driver's part of the node's parameters (`joints`, `buses`, `drives`, `constraints`, ...).
+/// `node_keys` are further top-level keys that the node itself reads. `urdf` holds limits by joint name;
+/// joints that are not in it, or limits wider than the URDF's, are refused, as are unknown keys, wrong types
+/// and values out of range: throws std::invalid_argument whose text names the parameter, the value, the
+/// allowed range and what to do.
 Configuration parse_configuration(const YAML::Node& parameters,
                                   const std::map<std::string, trajectory::JointLimits>& urdf,
                                   const std::vector<std::string>& node_keys = {});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/hardware/event_log.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
@@ -25,15 +26,15 @@ struct JointHandle {
   const double* demand = nullptr;    ///< rad, the drive's demand
 };
 
-/// The whole driver below ROS: buses, axes and the motion group of one configuration, with emulated drives where the
-/// configuration asks for them. Not thread-safe: one thread owns it. Nothing blocks and no clock is read; it lives on the
-/// times it is given, so it runs in virtual time as well as in real time.
+/// The whole driver below ROS: buses, axes and the motion group of one configuration, with emulated drives
+/// where the configuration asks for them. Not thread-safe: one thread owns it. Nothing blocks and no clock is
+/// read; it lives on the times it is given, so it runs in virtual time as well as in real time.
 ///
 /// Typical loop: `update(now)`, take results, sleep until `next_deadline()` (at most a few ms), again.
 class MotionHardware {
  public:
-  /// Composes everything; drives are looked for from `now` on. Throws std::invalid_argument, std::runtime_error (a bus that
-  /// cannot be opened).
+  /// Composes everything; drives are looked for from `now` on. Throws std::invalid_argument,
+  /// std::runtime_error (a bus that cannot be opened).
   MotionHardware(const Configuration& configuration, HostTime now);
   ~MotionHardware();
   MotionHardware(const MotionHardware&) = delete;
@@ -50,8 +51,8 @@ class MotionHardware {
 
   const std::vector<JointHandle>& joints() const;
 
-  /// Takes a goal, or says why not. Replaces the goal that is under way, which then ends as Preempted. A goal without points
-  /// and with the right joints is a stop. Never called from within update().
+  /// Takes a goal, or says why not. Replaces the goal that is under way, which then ends as Preempted. A goal
+  /// without points and with the right joints is a stop. Never called from within update().
   Expected<motion::GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
   /// Stops the goal, if it is still under way; it ends as Preempted.
   void cancel(motion::GoalId goal, HostTime now);
@@ -69,23 +70,21 @@ class MotionHardware {
   void snapshot(motion::Snapshot& out) const;
   /// Figures of the last goal that moved.
   motion::MotionReport report() const;
-  /// The committed trajectory at `time`, per joint. False when `time` is before the start of the trajectory in force.
+  /// The committed trajectory at `time`, per joint. False when `time` is before the start of the trajectory
+  /// in force.
   bool query(HostTime time, std::vector<trajectory::State>& out) const;
 
   /// Text for the log that arose since the last call: severity and sentence.
-  enum class Severity { Debug, Info, Warning, Error };
-  struct LogEntry {
-    Severity severity = Severity::Info;
-    std::string text;
-  };
+  using Severity = hardware::Severity;
+  using LogEntry = hardware::LogEntry;
   std::optional<LogEntry> take_log();
 
   /// `observer` is called with every frame seen on any CAN bus, in the order of the wire.
   void set_wire_observer(std::function<void(const std::string& bus, const canopen::ReceivedFrame&)> observer);
 
-  /// Switches faults of the emulated drive of `joint` on, for tests and demos: "emcy CODE", "power_cycle SECONDS",
-  /// "stall 0|1", "silence 0|1". False with a reason when the joint is not emulated or the command is unknown.
-  bool inject(const std::string& joint, const std::string& command, std::string* reason, HostTime now);
+  /// Injects a fault into the emulated drive of a joint or into an emulated bus, see fault_injection.h. False
+  /// with a reason when `target` is not emulated or the command is unknown.
+  bool inject(const std::string& target, const std::string& command, std::string* reason, HostTime now);
 
  private:
   class Implementation;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace interpolated_motion::hardware {
+
+enum class Severity { Debug, Info, Warning, Error };
+
+/// One sentence for the log.
+struct LogEntry {
+  Severity severity = Severity::Info;
+  std::string text;
+};
+
+/// Sentences waiting to be taken by whoever logs. When nobody does, the oldest are forgotten.
+class EventLog {
+ public:
+  void add(Severity severity, std::string text) {
+    if (entries_.size() == kCapacity) entries_.pop_front();
+    entries_.push_back({severity, std::move(text)});
+  }
+
+  std::optional<LogEntry> take() {
+    if (entries_.empty()) return std::nullopt;
+    LogEntry entry = std::move(entries_.front());
+    entries_.pop_front();
+    return entry;
+  }
+
+ private:
+  static constexpr std::size_t kCapacity = 1000;
+  std::deque<LogEntry> entries_;
+};
+
+}  // namespace interpolated_motion::hardware

@@ -1,0 +1,57 @@
+#include "interpolated_motion_driver/hardware/can_link.h"
+
+#include <algorithm>
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+/// An interpolation data record is an 8-byte frame: at most 135 bits (Davis et al.).
+constexpr double kRecordBits = 135.0;
+
+canopen::MasterParameters master_parameters(const BusConfiguration& configuration) {
+  canopen::MasterParameters parameters;
+  parameters.own_node_id = static_cast<std::uint8_t>(configuration.host_node_id);
+  parameters.heartbeat_period = host_duration(configuration.heartbeat_period);
+  parameters.heartbeat_timeout = host_duration(configuration.heartbeat_timeout);
+  parameters.sync_period = host_duration(configuration.sync_period);
+  parameters.bitrate = configuration.bitrate;
+  parameters.max_bulk_load = configuration.max_load;
+  parameters.sdo.timeout = host_duration(configuration.sdo_timeout);
+  return parameters;
+}
+
+}  // namespace
+
+CanLink::CanLink(const BusConfiguration& configuration, transport::CanBus& bus)
+    : bus_(bus), master_(configuration.name, master_parameters(configuration)) {}
+
+void CanLink::receive(const WireObserver& observer) {
+  while (const auto received = bus_.receive()) {
+    if (observer) observer(name(), *received);
+    ++(received->own ? sent_ : received_);
+    master_.on_frame(*received);
+  }
+}
+
+void CanLink::send(HostTime now) {
+  while (const canopen::Frame* frame = master_.peek_outgoing(now)) {
+    if (!bus_.send(*frame, now)) break;
+    master_.pop_outgoing(now);
+  }
+  peak_load_ = std::max(peak_load_, master_.bus_load(now));
+}
+
+motion::BusSnapshot CanLink::snapshot() const {
+  motion::BusSnapshot snapshot{name(), master_.bus_load(), sent_, received_, 0};
+  for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause) {
+    snapshot.unexpected += master_.unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
+  }
+  return snapshot;
+}
+
+double CanLink::record_bus_time() const {
+  return kRecordBits / (master_.parameters().bitrate * master_.parameters().max_bulk_load);
+}
+
+}  // namespace interpolated_motion::hardware

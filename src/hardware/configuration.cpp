@@ -1,0 +1,214 @@
+#include "interpolated_motion_driver/hardware/configuration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/hardware/emulation_configuration.h"
+#include "interpolated_motion_driver/hardware/parameter_reader.h"
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+using Urdf = std::map<std::string, trajectory::JointLimits>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Without a limit of its own a joint may reach its velocity limit within this time.
+constexpr double kDefaultAccelerationTime = 0.1;
+/// Worst case of an 8-byte frame with an 11-bit identifier (Davis et al., "CAN schedulability analysis").
+constexpr double kLongestFrameBits = 135.0;
+constexpr double kSyncBits = 55.0;
+constexpr double kHeartbeatBits = 65.0;
+
+const std::vector<std::pair<std::string, std::uint32_t>> kBitrates = {
+    {"1000000", 1000000}, {"800000", 800000}, {"500000", 500000}, {"250000", 250000},
+    {"125000", 125000},   {"50000", 50000},   {"20000", 20000}};
+
+BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
+  BusConfiguration bus;
+  bus.name = name;
+  reader.choice<int>("type", 0, {{"canopen", 0}});
+  bus.transport =
+      reader.choice("transport", TransportKind::Emulated, {{"emulated", TransportKind::Emulated}});
+  bus.bitrate = reader.choice("bitrate", bus.bitrate, kBitrates);
+  bus.sync_period = reader.number("sync_period", bus.sync_period, 0.001, 0.1);
+  bus.heartbeat_period = reader.number("heartbeat_period", bus.heartbeat_period, 0.01, 10.0);
+  bus.heartbeat_timeout = reader.number("heartbeat_timeout", bus.heartbeat_timeout, 0.02, 60.0);
+  if (bus.heartbeat_timeout < 1.5 * bus.heartbeat_period) {
+    reader.fail("heartbeat_timeout",
+                fmt::format("is {} s; it must be at least 1.5 times heartbeat_period ({} s)",
+                            bus.heartbeat_timeout, bus.heartbeat_period));
+  }
+  bus.host_node_id = static_cast<int>(reader.integer("host_node_id", bus.host_node_id, 1, 127));
+  bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);
+  bus.sdo_timeout = reader.number("sdo_timeout", bus.sdo_timeout, 0.01, 10.0);
+  reader.refuse_unknown();
+  return bus;
+}
+
+/// A limit of the configuration may tighten that of the URDF, never widen it.
+double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper) {
+  const double value = reader.number(key, urdf, -kInfinity, kInfinity);
+  const bool wider = upper ? value > urdf : value < urdf;
+  if (wider)
+    reader.fail(key, fmt::format("is {}; the URDF allows {} and may only be tightened", value, urdf));
+  return value;
+}
+
+trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader reader, const Urdf& urdf) {
+  const auto found = urdf.find(joint);
+  if (found == urdf.end()) {
+    reader.fail(
+        "",
+        fmt::format(
+            "belongs to joint \"{}\", which the URDF does not have. Correct the name, or add the joint to "
+            "the robot description",
+            joint));
+  }
+  trajectory::JointLimits limits = found->second;
+  limits.min_position = tightened(reader, "min_position", limits.min_position, false);
+  limits.max_position = tightened(reader, "max_position", limits.max_position, true);
+  limits.max_velocity = tightened(reader, "max_velocity", limits.max_velocity, true);
+  if (!(limits.max_velocity > 0.0) || !std::isfinite(limits.max_velocity)) {
+    reader.fail("max_velocity",
+                fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "
+                            "the URDF or here",
+                            limits.max_velocity));
+  }
+  if (limits.min_position > limits.max_position) {
+    reader.fail("min_position",
+                fmt::format("is {}, above max_position {}", limits.min_position, limits.max_position));
+  }
+  limits.max_acceleration =
+      reader.number("max_acceleration", limits.max_velocity / kDefaultAccelerationTime, 1e-6, 1e9);
+  reader.refuse_unknown();
+  return limits;
+}
+
+encoding::Transmission parse_transmission(ParameterReader& reader) {
+  encoding::Transmission transmission;
+  transmission.counts_per_revolution = reader.required_number("counts_per_revolution", 1.0, 1e8);
+  transmission.ratio = reader.number("gear_ratio", 1.0, 1e-6, 1e6);
+  transmission.direction = static_cast<int>(reader.integer("direction", 1, -1, 1));
+  if (transmission.direction == 0) reader.fail("direction", "is 0; allowed: 1, -1");
+  transmission.offset = reader.number("offset", 0.0, -1e6, 1e6);
+  return transmission;
+}
+
+DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader, const Urdf& urdf) {
+  DriveConfiguration drive;
+  drive.joint = joint;
+  drive.bus = reader.required_text("bus");
+  reader.choice<int>("type", 0, {{"epos_ipm", 0}});
+  drive.node_id = static_cast<int>(reader.required_integer("node_id", 1, 127));
+  drive.transmission = parse_transmission(reader);
+  drive.limits = parse_limits(joint, reader.map("limits"), urdf);
+  drive.deviation_bound = reader.number("deviation_bound", drive.deviation_bound, 0.6, 1000.0);
+  drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
+  drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
+  drive.emulation = parse_emulation(reader.map("emulation"), drive);
+  reader.refuse_unknown();
+  return drive;
+}
+
+ConstraintConfiguration parse_constraints(ParameterReader reader, const std::vector<std::string>& joints) {
+  ConstraintConfiguration constraints;
+  constraints.goal_time = reader.number("goal_time", constraints.goal_time, 0.0, 1e6);
+  constraints.stopped_velocity_tolerance =
+      reader.number("stopped_velocity_tolerance", constraints.stopped_velocity_tolerance, 0.0, 1e6);
+  for (const std::string& joint : joints) {
+    ParameterReader entry = reader.map(joint);
+    ConstraintConfiguration::Joint& limits = constraints.joints[joint];
+    limits.trajectory = entry.number("trajectory", 0.0, 0.0, 1e6);
+    limits.goal = entry.number("goal", 0.0, 0.0, 1e6);
+    entry.refuse_unknown();
+  }
+  reader.refuse_unknown();
+  return constraints;
+}
+
+void check_nodes(const Configuration& configuration) {
+  std::map<std::pair<std::string, int>, std::string> owners;
+  std::map<std::string, int> hosts;
+  for (const BusConfiguration& bus : configuration.buses) {
+    hosts[bus.name] = bus.host_node_id;
+    owners[{bus.name, bus.host_node_id}] = "the host (host_node_id)";
+  }
+  for (const DriveConfiguration& drive : configuration.drives) {
+    if (hosts.count(drive.bus) == 0) {
+      throw std::invalid_argument(
+          fmt::format("Parameter drives/{}/bus is \"{}\", which is not among buses. Add it there or "
+                      "correct the name.",
+                      drive.joint, drive.bus));
+    }
+    const auto [owner, free] = owners.insert({{drive.bus, drive.node_id}, "joint " + drive.joint});
+    if (!free) {
+      throw std::invalid_argument(
+          fmt::format("Parameter drives/{}/node_id is {}, which {} has on bus {} already. Every drive of a "
+                      "bus needs a node id of its own, 1..127.",
+                      drive.joint, drive.node_id, owner->second, drive.bus));
+    }
+  }
+}
+
+/// What flows whether anything moves or not: per SYNC a position and a buffer report of each drive,
+/// heartbeats, a tenth of a demand report.
+double background_load(const BusConfiguration& bus, std::size_t drives) {
+  const double per_sync = kSyncBits + static_cast<double>(drives) * 2.1 * kLongestFrameBits;
+  const double per_heartbeat = static_cast<double>(drives + 1) * kHeartbeatBits;
+  return (per_sync / bus.sync_period + per_heartbeat / bus.heartbeat_period) / bus.bitrate;
+}
+
+void check_background_load(const Configuration& configuration) {
+  for (const BusConfiguration& bus : configuration.buses) {
+    const auto drives = static_cast<std::size_t>(
+        std::count_if(configuration.drives.begin(), configuration.drives.end(),
+                      [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; }));
+    const double load = background_load(bus, drives);
+    if (load + bus.max_load <= 1.0) continue;
+    throw std::invalid_argument(
+        fmt::format("Bus {} cannot carry {} drives: their position reports every {} s fill {:.0f} % of {} "
+                    "bit/s, and max_load reserves {:.0f} "
+                    "% for motion records. Raise sync_period or bitrate, lower max_load, or use more buses.",
+                    bus.name, drives, bus.sync_period, 100.0 * load, bus.bitrate, 100.0 * bus.max_load));
+  }
+}
+
+}  // namespace
+
+Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf,
+                                  const std::vector<std::string>& node_keys) {
+  ParameterReader reader(parameters, "");
+  Configuration configuration;
+  configuration.joints = reader.names("joints");
+  ParameterReader buses = reader.map("buses");
+  for (const std::string& name : buses.keys())
+    configuration.buses.push_back(parse_bus(name, buses.map(name)));
+  ParameterReader drives = reader.map("drives");
+  for (const std::string& joint : configuration.joints) {
+    if (!drives.has(joint)) drives.fail(joint, "is missing: every joint of `joints` needs a drive");
+    configuration.drives.push_back(parse_drive(joint, drives.map(joint), urdf));
+  }
+  drives.refuse_unknown();
+  configuration.constraints = parse_constraints(reader.map("constraints"), configuration.joints);
+  auto& c = configuration;
+  c.stop_trajectory_duration =
+      reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
+  c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
+  c.start_tolerance = reader.number("start_tolerance", c.start_tolerance, 0.0, 10.0);
+  c.commit_horizon = reader.number("commit_horizon", c.commit_horizon, 0.1, 60.0);
+  c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);
+  c.settle_timeout = reader.number("settle_timeout", c.settle_timeout, 0.0, 600.0);
+  c.enable_on_start = reader.boolean("enable_on_start", c.enable_on_start);
+  for (const std::string& key : node_keys) reader.ignore(key);
+  reader.refuse_unknown();
+  check_nodes(configuration);
+  check_background_load(configuration);
+  return configuration;
+}
+
+}  // namespace interpolated_motion::hardware

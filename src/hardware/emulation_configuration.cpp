@@ -1,0 +1,75 @@
+#include "interpolated_motion_driver/hardware/emulation_configuration.h"
+
+#include <cmath>
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+using namespace emulation;
+
+void parse_identity(ParameterReader& reader, EposParameters& drive) {
+  constexpr std::int64_t kU32 = 0xFFFFFFFF;
+  drive.variant =
+      reader.choice("variant", drive.variant, {{"epos2", EposVariant::Epos2}, {"epos4", EposVariant::Epos4}});
+  drive.vendor_id = static_cast<std::uint32_t>(reader.integer("vendor_id", drive.vendor_id, 0, kU32));
+  drive.product_code =
+      static_cast<std::uint32_t>(reader.integer("product_code", drive.product_code, 0, kU32));
+  drive.revision_number =
+      static_cast<std::uint32_t>(reader.integer("revision_number", drive.revision_number, 0, kU32));
+  drive.serial_number =
+      static_cast<std::uint32_t>(reader.integer("serial_number", drive.serial_number, 0, kU32));
+}
+
+void parse_physics(ParameterReader& reader, EposParameters& drive) {
+  drive.clock_error_ppm = reader.number("clock_error_ppm", 0.0, -1e5, 1e5);
+  drive.tick_phase = host_duration(reader.number("tick_phase", 0.0, 0.0, 0.000999));
+  drive.boot_time = host_duration(reader.number("boot_time", seconds(drive.boot_time), 0.001, 60.0));
+  drive.plant.lag_ms = reader.number("lag_ms", drive.plant.lag_ms, 0.0, 1000.0);
+  drive.plant.load_counts = reader.number("load_counts", drive.plant.load_counts, -1e6, 1e6);
+}
+
+void parse_unknowns(ParameterReader& reader, EposParameters& drive) {
+  drive.lowest_velocity_notation = static_cast<std::int8_t>(
+      reader.integer("lowest_velocity_notation", drive.lowest_velocity_notation, -3, 0));
+  drive.limits_scale_with_notation =
+      reader.boolean("limits_scale_with_notation", drive.limits_scale_with_notation);
+  drive.limit_ranges_scale_with_notation =
+      reader.boolean("limit_ranges_scale_with_notation", drive.limit_ranges_scale_with_notation);
+  drive.free_records_pdo_mappable =
+      reader.boolean("free_records_pdo_mappable", drive.free_records_pdo_mappable);
+  drive.record_release = reader.choice(
+      "record_release", drive.record_release,
+      {{"at_segment_end", RecordRelease::AtSegmentEnd}, {"at_segment_start", RecordRelease::AtSegmentStart}});
+  drive.underflow_test = reader.choice(
+      "underflow_test", drive.underflow_test,
+      {{"at_segment_end", UnderflowTest::AtSegmentEnd}, {"every_sample", UnderflowTest::EverySample}});
+  drive.motion_check = reader.choice("motion_check", drive.motion_check,
+                                     {{"samples", MotionCheck::Samples}, {"knots", MotionCheck::Knots}});
+  drive.position_limit_check = reader.choice(
+      "position_limit_check", drive.position_limit_check,
+      {{"run_time", PositionLimitCheck::RunTime}, {"per_record", PositionLimitCheck::PerRecord}});
+  drive.halt_release =
+      reader.choice("halt_release", drive.halt_release,
+                    {{"resume", HaltRelease::Resume}, {"needs_new_start", HaltRelease::NeedsNewStart}});
+}
+
+}  // namespace
+
+EmulationConfiguration parse_emulation(ParameterReader reader, const DriveConfiguration& drive) {
+  EmulationConfiguration emulation;
+  emulation.missing = reader.boolean("missing", false);
+  emulation.drive.node_id = static_cast<std::uint8_t>(drive.node_id);
+  emulation.drive.serial_number = static_cast<std::uint32_t>(drive.node_id);
+  emulation.drive.counts_per_revolution = static_cast<std::int32_t>(drive.transmission.counts_per_revolution);
+  const double position = reader.number("initial_position", 0.0, -1e6, 1e6);
+  emulation.drive.initial_position =
+      static_cast<std::int32_t>(std::lround(drive.transmission.counts(position)));
+  parse_identity(reader, emulation.drive);
+  parse_physics(reader, emulation.drive);
+  parse_unknowns(reader, emulation.drive);
+  reader.refuse_unknown();
+  return emulation;
+}
+
+}  // namespace interpolated_motion::hardware
