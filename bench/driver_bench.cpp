@@ -7,8 +7,8 @@
 namespace interpolated_motion {
 namespace {
 
-/// The whole driver with six emulated drives plays the six-axis goal in virtual time. `x real time` is virtual seconds per
-/// second of the processor, `frames/s` counts frames of both directions.
+/// The whole driver with six emulated drives plays the six-axis goal in virtual time. `x real time` is
+/// virtual seconds per second of the processor, `frames/s` counts frames of both directions.
 void play_six_axis_goal(benchmark::State& state) {
   double virtual_seconds = 0.0;
   std::uint64_t frames = 0;
@@ -24,7 +24,8 @@ void play_six_axis_goal(benchmark::State& state) {
     scenario.result_of(accepted.value().id);
     state.PauseTiming();
     const auto after = scenario.snapshot().buses[0];
-    frames += after.frames_sent + after.frames_received - frames_before.frames_sent - frames_before.frames_received;
+    frames +=
+        after.frames_sent + after.frames_received - frames_before.frames_sent - frames_before.frames_received;
     virtual_seconds += seconds(scenario.now() - start);
     state.ResumeTiming();
   }

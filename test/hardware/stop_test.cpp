@@ -35,7 +35,8 @@ class StopInMotion : public ::testing::Test {
     const auto accepted = scenario.submit(make_goal({0.8}, {target}));
     ASSERT_TRUE(accepted) << accepted.error().text;
     EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, GoalOutcome::Succeeded);
-    for (const auto& joint : scenario.driver().report().joints) EXPECT_LE(joint.worst_deviation, 1.0) << joint.joint;
+    for (const auto& joint : scenario.driver().report().joints)
+      EXPECT_LE(joint.worst_deviation, 1.0) << joint.joint;
   }
 
   Scenario scenario;

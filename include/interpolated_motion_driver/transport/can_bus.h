@@ -16,8 +16,8 @@ class CanBus {
   /// interface is down: the caller keeps the frame and tries again later. Frames leave in the order given.
   virtual bool send(const canopen::Frame& frame, HostTime now) = 0;
 
-  /// The next frame seen on the bus, oldest first: those of other nodes, and this host's own once they have been
-  /// transmitted (`own` is set). Empty when there is none.
+  /// The next frame seen on the bus, oldest first: those of other nodes, and this host's own once they have
+  /// been transmitted (`own` is set). Empty when there is none.
   virtual std::optional<canopen::ReceivedFrame> receive() = 0;
 };
 
