@@ -1,12 +1,8 @@
 # One static library per stage, in the order of the data; a stage may use the stages before it only.
 # Sources are src/<stage>/**.cpp, tests are test/<stage>/**_test.cpp.
 
-add_library(imd_settings INTERFACE)
-target_include_directories(imd_settings INTERFACE ${PROJECT_SOURCE_DIR}/include)
-target_compile_options(imd_settings INTERFACE -Wall -Wextra -Wconversion -Wshadow
-                       $<$<BOOL:${IMD_WARNINGS_AS_ERRORS}>:-Werror>)
-
-set(IMD_STAGES interpolation trajectory encoding protocol axis motion transport emulation hardware)
+set(IMD_STAGES units interpolation trajectory encoding protocol axis motion transport emulation hardware)
+set(IMD_USES_units "")
 set(IMD_USES_interpolation "")
 set(IMD_USES_trajectory "")
 set(IMD_USES_encoding trajectory interpolation)
@@ -17,11 +13,27 @@ set(IMD_USES_transport protocol)
 set(IMD_USES_emulation interpolation protocol transport)
 set(IMD_USES_hardware motion transport emulation)
 
-function(imd_add_stages)
+# Sets IMD_SOURCES_<stage>, and IMD_LIBRARIES to the stages that have a library to link: users before the used, as static
+# libraries want it. A stage of headers only has none.
+macro(imd_find_stages)
+  set(IMD_LIBRARIES "")
   foreach(stage IN LISTS IMD_STAGES)
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${stage}/*.cpp)
-    if(sources)
-      add_library(imd_${stage} STATIC ${sources})
+    file(GLOB_RECURSE IMD_SOURCES_${stage} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${stage}/*.cpp)
+    if(IMD_SOURCES_${stage})
+      list(INSERT IMD_LIBRARIES 0 imd_${stage})
+    endif()
+  endforeach()
+endmacro()
+
+function(imd_add_stages)
+  add_library(imd_settings INTERFACE)
+  target_include_directories(imd_settings INTERFACE ${PROJECT_SOURCE_DIR}/include)
+  target_compile_options(imd_settings INTERFACE -Wall -Wextra -Wconversion -Wshadow
+                         $<$<BOOL:${IMD_WARNINGS_AS_ERRORS}>:-Werror>)
+
+  foreach(stage IN LISTS IMD_STAGES)
+    if(IMD_SOURCES_${stage})
+      add_library(imd_${stage} STATIC ${IMD_SOURCES_${stage}})
       set(scope PUBLIC)
     else()
       add_library(imd_${stage} INTERFACE)
@@ -32,20 +44,45 @@ function(imd_add_stages)
       target_link_libraries(imd_${stage} ${scope} imd_${used})
     endforeach()
   endforeach()
-  target_link_libraries(imd_hardware ${scope} yaml-cpp)
+  target_include_directories(imd_hardware SYSTEM ${scope} ${urdfdom_INCLUDE_DIRS})
+  target_link_libraries(imd_hardware ${scope} yaml-cpp ${urdfdom_LIBRARIES})
+endfunction()
+
+# A GoogleTest program NAME from sources, run by ctest and by catkin's run_tests alike, result in test_results as JUnit XML.
+# Further arguments are libraries. Built by target `tests`, not by `all`.
+function(imd_add_gtest name sources)
+  add_executable(${name} EXCLUDE_FROM_ALL ${sources})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_compile_definitions(${name} PRIVATE IMD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE imd_settings ${ARGN} GTest::GTest GTest::Main yaml-cpp)
+  add_dependencies(tests ${name})
+  set(xml gtest-${name}.xml)
+  catkin_run_tests_target("gtest" ${name} ${xml} DEPENDENCIES ${name}
+    COMMAND "${PROJECT_BINARY_DIR}/${name} --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${xml}")
 endfunction()
 
 function(imd_add_stage_tests)
   find_package(GTest REQUIRED)
-  include(GoogleTest)
   foreach(stage IN LISTS IMD_STAGES)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${stage}/*.cpp)
     if(sources)
-      add_executable(${stage}_tests ${sources})
-      target_include_directories(${stage}_tests PRIVATE ${PROJECT_SOURCE_DIR}/test)
-      target_compile_definitions(${stage}_tests PRIVATE IMD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-      target_link_libraries(${stage}_tests PRIVATE imd_${stage} GTest::GTest GTest::Main yaml-cpp)
-      add_test(NAME ${stage}_tests COMMAND ${stage}_tests)
+      imd_add_gtest(${stage}_tests "${sources}" imd_${stage})
     endif()
   endforeach()
+endfunction()
+
+# Target `benchmarks`: every bench/*_bench.cpp in one program, built on request only. They play the scenarios of the
+# whole-driver tests.
+function(imd_add_benchmarks)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/*_bench.cpp)
+  find_package(benchmark QUIET)
+  find_package(GTest QUIET)
+  if(sources AND benchmark_FOUND AND GTest_FOUND)
+    add_executable(benchmarks EXCLUDE_FROM_ALL ${sources} ${PROJECT_SOURCE_DIR}/test/hardware/scenario.cpp)
+    set_target_properties(benchmarks PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+    target_include_directories(benchmarks PRIVATE ${PROJECT_SOURCE_DIR}/test)
+    target_compile_definitions(benchmarks PRIVATE IMD_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(benchmarks PRIVATE imd_hardware benchmark::benchmark benchmark::benchmark_main GTest::GTest yaml-cpp)
+  endif()
 endfunction()

@@ -1,0 +1,27 @@
+# Sourced by the scripts of this folder: where things are, and an environment that does not depend on the caller's.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build=$root/build
+export LC_ALL=C.UTF-8
+
+# ROS's Python modules belong to the system's Python; another python3 in front of it would not find them.
+export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
+
+say() { printf '\n== %s\n' "$*"; }
+die() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
+
+# ROS's own setup files read unset variables.
+source_ros() {
+  set +u
+  # shellcheck disable=SC1090
+  source "$1"
+  set -u
+}
+
+# A distribution under /opt/ros (Noetic, ROS-O) that the caller has not chosen yet. Debian's ROS needs no set-up.
+if [ -z "${ROS_DISTRO:-}" ]; then
+  for setup in /opt/ros/*/setup.bash; do
+    if [ -e "$setup" ]; then source_ros "$setup"; fi
+  done
+fi

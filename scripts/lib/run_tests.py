@@ -1,0 +1,110 @@
+"""Runs the lints and every test that ctest knows, and counts the test cases: run_tests.py ROOT BUILD
+
+Each ctest test writes one JUnit XML file; its cases are counted from there. A program that crashed, was killed, wrote no result or ran
+no case counts as one failed case. The last line is "N passed, N failed".
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+LINTS = ("format", "includes", "catkin", "tidy")
+
+
+class Tally:
+    def __init__(self):
+        self.passed = 0
+        self.skipped = 0
+        self.failures = []  # (name, message)
+
+    def add_case(self, name, case):
+        problem = case.find("failure")
+        if problem is None:
+            problem = case.find("error")
+        if problem is not None:
+            self.failures.append((name, problem.get("message") or problem.text or ""))
+        elif case.find("skipped") is not None or case.get("status") == "notrun" or case.get("result") in ("skipped", "suppressed"):
+            self.skipped += 1
+        else:
+            self.passed += 1
+
+    def add_result(self, test, result, succeeded):
+        """Counts the cases of one test program; `result` is its XML file, `succeeded` whether ctest saw it pass."""
+        before = len(self.failures)
+        try:
+            cases = list(ElementTree.parse(result).getroot().iter("testcase"))
+        except (OSError, ElementTree.ParseError) as error:
+            self.failures.append((test, f"no readable result: {error}"))
+            return
+        for case in cases:
+            self.add_case(f"{test}: {case.get('classname', '')}.{case.get('name', '')}", case)
+        if not cases:
+            self.failures.append((test, "ran no test case"))
+        elif not succeeded and len(self.failures) == before:
+            self.failures.append((test, "every case passed, but the program failed: a crash at its end, or a time-out"))
+
+    def closing_line(self):
+        skipped = f", {self.skipped} skipped" if self.skipped else ""
+        return f"{self.passed} passed, {len(self.failures)} failed{skipped}"
+
+
+def ctest_tests(build):
+    """{name: result file} of every test that is registered."""
+    listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, stdout=subprocess.PIPE, check=True, text=True).stdout
+    tests = {}
+    for test in json.loads(listing)["tests"]:
+        command = test.get("command", [])
+        runner = next((i for i, word in enumerate(command) if word.endswith("/run_tests.py")), None)
+        tests[test["name"]] = Path(command[runner + 1]) if runner is not None else Path("no-result-file")
+    return tests
+
+
+def readable(ctest_name):
+    return re.sub(r"^_ctest_[a-z_]+?_(gtest|rostest|pytest)_", "", ctest_name)
+
+
+def run_ctest(build, tally):
+    tests = ctest_tests(build)
+    if not tests:
+        tally.failures.append(("ctest", "no test is registered"))
+        return
+    for result in tests.values():
+        result.unlink(missing_ok=True)
+    failed_log = build / "Testing" / "Temporary" / "LastTestsFailed.log"
+    failed_log.unlink(missing_ok=True)
+    status = subprocess.call(["ctest", "--output-on-failure", "--timeout", "600", "-j", str(os.cpu_count())], cwd=build)
+    failed = {line.split(":", 1)[1] for line in failed_log.read_text().splitlines()} if failed_log.exists() else set()
+    for name, result in sorted(tests.items()):
+        tally.add_result(readable(name), result, name not in failed)
+    if status and not tally.failures:
+        tally.failures.append(("ctest", f"exit status {status}"))
+
+
+def run_lints(root, tally):
+    for check in LINTS:
+        print(f"\n== lint {check}", flush=True)
+        if subprocess.call([root / "scripts" / "lint", check]) == 0:
+            tally.passed += 1
+        else:
+            tally.failures.append((f"lint {check}", "see above"))
+
+
+def main(arguments):
+    root, build = Path(arguments[1]), Path(arguments[2])
+    tally = Tally()
+    run_lints(root, tally)
+    print("\n== tests", flush=True)
+    run_ctest(build, tally)
+    print()
+    for name, message in tally.failures:
+        print(f"FAILED {name}\n    " + message.strip().replace("\n", "\n    "))
+    print(tally.closing_line())
+    return 1 if tally.failures or not tally.passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
