@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <actionlib/server/action_server.h>
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <ros/node_handle.h>
+#include <ros/steady_timer.h>
+
+#include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/snapshot.h"
+#include "interpolated_motion_driver/node/hardware_thread.h"
+
+namespace interpolated_motion::node {
+
+/// The action `~follow_joint_trajectory`, as joint_trajectory_controller has it: a plain action server, so
+/// that a new goal replaces the one under way, whoever sent it. All its callbacks, and goal_ended(), run in
+/// the one thread that serves the node handle's callback queue.
+class TrajectoryActionServer {
+ public:
+  /// Clients do not see the server before start(). `monitor_rate`: Hz, of the feedback.
+  TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware, double monitor_rate);
+
+  /// Announces the server: from now on goals are taken.
+  void start();
+
+  /// Ends the client's goal as the motion has ended. Results of trajectories that came by the command topic
+  /// are ignored.
+  void goal_ended(const motion::GoalResult& result);
+
+ private:
+  using Server = actionlib::ActionServer<control_msgs::FollowJointTrajectoryAction>;
+  using Handle = Server::GoalHandle;
+
+  void on_goal(Handle handle);
+  void on_cancel(const Handle& handle);
+  void publish_feedback();
+
+  HardwareThread& hardware_;
+  ros::NodeHandle node_;
+  std::map<motion::GoalId, Handle> goals_;  ///< accepted and not yet ended
+  motion::Snapshot snapshot_;
+  control_msgs::FollowJointTrajectoryFeedback feedback_;
+  Server server_;
+  ros::SteadyTimer feedback_timer_;
+};
+
+}  // namespace interpolated_motion::node

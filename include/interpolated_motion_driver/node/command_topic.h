@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include "interpolated_motion_driver/node/hardware_thread.h"
+
+namespace interpolated_motion::node {
+
+/// The topic `~command`: trajectories without feedback. One that is accepted replaces whatever is under way,
+/// a goal of the action too; one without points stops; one that is refused is logged and changes nothing.
+class CommandTopic {
+ public:
+  CommandTopic(ros::NodeHandle node, HardwareThread& hardware, std::vector<std::string> joints);
+
+ private:
+  void on_command(const trajectory_msgs::JointTrajectory& message);
+
+  HardwareThread& hardware_;
+  const std::vector<std::string> joints_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace interpolated_motion::node

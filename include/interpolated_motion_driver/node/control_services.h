@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include "interpolated_motion_driver/node/hardware_thread.h"
+
+namespace interpolated_motion::node {
+
+/// The services that change the state of the drives: `~enable`, `~reset_faults`, `~halt` and
+/// `~clear_buffers`. Each answers when it is done; so they are served by a thread of their own.
+class ControlServices {
+ public:
+  ControlServices(ros::NodeHandle node, HardwareThread& hardware);
+
+ private:
+  using Start = std::function<motion::RequestId(HardwareThread::Hardware&, HostTime)>;
+
+  ros::ServiceServer advertise_trigger(ros::NodeHandle& node, const std::string& name, Start start);
+  bool enable(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+
+  HardwareThread& hardware_;
+  ros::ServiceServer enable_;
+  ros::ServiceServer reset_faults_;
+  ros::ServiceServer halt_;
+  ros::ServiceServer clear_buffers_;
+};
+
+}  // namespace interpolated_motion::node

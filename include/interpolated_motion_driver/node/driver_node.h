@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <string>
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/steady_timer.h>
+
+#include "interpolated_motion_driver/node/action_server.h"
+#include "interpolated_motion_driver/node/bring_up.h"
+#include "interpolated_motion_driver/node/command_topic.h"
+#include "interpolated_motion_driver/node/control_services.h"
+#include "interpolated_motion_driver/node/diagnostics.h"
+#include "interpolated_motion_driver/node/fault_injection.h"
+#include "interpolated_motion_driver/node/hardware_thread.h"
+#include "interpolated_motion_driver/node/load_configuration.h"
+#include "interpolated_motion_driver/node/query_services.h"
+#include "interpolated_motion_driver/node/state_publisher.h"
+#include "interpolated_motion_driver/node/status_publisher.h"
+#include "interpolated_motion_driver/node/wire_log.h"
+
+namespace interpolated_motion::node {
+
+/// The ROS side of the driver. Four threads:
+/// - the bus thread (HardwareThread) owns drives and buses;
+/// - commands: action, `~command`, `~query_state` (the caller of run());
+/// - publishing: everything that is published at a rate, and the log;
+/// - services: requests that take seconds.
+/// Each part lives in one of the last three, so no part needs a lock.
+class DriverNode {
+ public:
+  /// Starts the bus thread. Throws std::invalid_argument, std::runtime_error (a bus or a file cannot be
+  /// opened).
+  explicit DriverNode(const LoadedConfiguration& configuration);
+
+  /// Serves until `stop` is set, ROS shuts down, or the bus thread fails; then brings the drives to rest and
+  /// switches them off. Returns the exit code of the program.
+  int run(const volatile std::sig_atomic_t& stop);
+
+ private:
+  std::unique_ptr<HardwareThread> start_hardware(const LoadedConfiguration& configuration);
+  HardwareThread::Listener listener();
+  void log(const HardwareThread::Hardware::LogEntry& entry);
+  void watch_bring_up();
+  int finish();
+
+  ros::CallbackQueue command_queue_;
+  ros::CallbackQueue publish_queue_;
+  ros::CallbackQueue service_queue_;
+
+  std::unique_ptr<WireLog> wire_log_;
+  std::atomic<bool> failed_{false};
+  std::unique_ptr<HardwareThread> hardware_;
+
+  TrajectoryActionServer action_;
+  CommandTopic command_;
+  QueryServices queries_;
+  ControlServices controls_;
+  std::unique_ptr<FaultInjection> faults_;
+  StatePublisher states_;
+  StatusPublisher status_;
+  Diagnostics diagnostics_;
+
+  BringUp bring_up_;
+  motion::Snapshot snapshot_;
+  ros::SteadyTimer bring_up_timer_;
+
+  ros::AsyncSpinner publish_spinner_;
+  ros::AsyncSpinner service_spinner_;
+};
+
+}  // namespace interpolated_motion::node

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/node/node_parameters.h"
+
+namespace interpolated_motion::node {
+
+/// Everything a node is configured with.
+struct LoadedConfiguration {
+  NodeParameters node;
+  hardware::Configuration driver;
+};
+
+/// Reads the private parameters of the node (`private_node`) and the robot description: the parameter
+/// `robot_description`, in the node's namespace or the nearest one above it, else the file named by
+/// `robot_description_file`. Throws std::invalid_argument with parameter, value, allowed range and what to
+/// do.
+LoadedConfiguration load_configuration(const ros::NodeHandle& private_node);
+
+}  // namespace interpolated_motion::node

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "interpolated_motion_driver/protocol/canopen/frame.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::node {
+
+/// One line of a candump log file, `(seconds.microseconds) BUS ID#DATA`, as can-utils' `candump -L` writes
+/// and `canplayer` and `log2asc` read it; with a newline. `time` is since the epoch.
+std::string candump_line(const std::string& bus, const canopen::Frame& frame, HostDuration time);
+
+/// Writes all CAN traffic to a file, from a thread of its own. The bus thread only appends to a bounded
+/// queue; when the file system cannot keep up, frames are left out and counted.
+class WireLog {
+ public:
+  /// Opens `path` anew. `offset`: wall clock minus host clock. `buses`: every name that will be given to
+  /// append(). Throws std::runtime_error when the file cannot be written.
+  WireLog(const std::string& path, HostDuration offset, std::vector<std::string> buses);
+  /// Writes what is queued and closes the file.
+  ~WireLog();
+  WireLog(const WireLog&) = delete;
+  WireLog& operator=(const WireLog&) = delete;
+
+  /// Queues one frame, without allocation; the lock is never held while the file is written.
+  void append(const std::string& bus, const canopen::ReceivedFrame& frame);
+
+  /// Frames that are missing in the file because the queue was full or the disk was.
+  std::uint64_t lost() const;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  struct Entry {
+    std::size_t bus;  ///< index in buses_
+    canopen::ReceivedFrame frame;
+  };
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  void run();
+  void write(const std::vector<Entry>& entries);
+
+  const std::string path_;
+  const HostDuration offset_;
+  const std::vector<std::string> buses_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<Entry> queue_;
+  std::uint64_t lost_ = 0;
+  bool closing_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace interpolated_motion::node

@@ -1,0 +1,113 @@
+#include "interpolated_motion_driver/node/diagnostics.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace interpolated_motion::node {
+namespace {
+
+constexpr auto kOk = ::diagnostic_msgs::DiagnosticStatus::OK;
+constexpr auto kWarn = ::diagnostic_msgs::DiagnosticStatus::WARN;
+constexpr auto kError = ::diagnostic_msgs::DiagnosticStatus::ERROR;
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
+
+void summarize_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status) {
+  if (!joint.online) {
+    status.summary(kError, "the drive does not answer");
+  } else if (joint.error_code != 0) {
+    status.summary(kError, fmt::format("{}: 0x{:04X} {}", joint.state, joint.error_code, joint.error_text));
+  } else if (joint.underruns > 0) {
+    status.summary(kWarn, fmt::format("{}; the buffer has run dry {} times", joint.state, joint.underruns));
+  } else if (joint.overflows > 0 || joint.refused_writes > 0) {
+    status.summary(kWarn, fmt::format("{}; the drive did not take {} records", joint.state,
+                                      joint.overflows + joint.refused_writes));
+  } else {
+    status.summary(kOk, joint.state);
+  }
+}
+
+}  // namespace
+
+void diagnose_group(const motion::Snapshot& snapshot, DiagnosticStatus& status) {
+  if (snapshot.state == motion::GroupState::Fault) {
+    status.summary(kError, snapshot.fault);
+  } else {
+    status.summary(kOk, motion::to_string(snapshot.state));
+  }
+}
+
+void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status) {
+  summarize_drive(joint, status);
+  status.add("bus", joint.bus);
+  status.add("state", joint.state);
+  status.add("statusword", fmt::format("0x{:04X}", joint.statusword));
+  status.add("following error", fmt::format("{:.6f}", joint.following_error));
+  status.add("buffered records", fmt::format("{} of {}", joint.fill, joint.capacity));
+  status.add("buffered time", fmt::format("{:.3f} s", joint.fill_time));
+  status.add("underruns", joint.underruns);
+  status.add("overflows", joint.overflows);
+  status.add("refused records", joint.refused_writes);
+  status.add("clock error", fmt::format("{:.1f} ppm", joint.clock_error_ppm));
+}
+
+void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {
+  if (bus.load > max_load) {
+    status.summary(kWarn,
+                   fmt::format("load {} is above the configured {}", percent(bus.load), percent(max_load)));
+  } else {
+    status.summary(kOk, fmt::format("load {}", percent(bus.load)));
+  }
+  status.add("load", percent(bus.load));
+  status.add("frames sent", bus.frames_sent);
+  status.add("frames received", bus.frames_received);
+  status.add("unexpected frames", bus.unexpected);
+}
+
+void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status) {
+  const std::uint64_t lost = log.lost();
+  if (lost > 0) {
+    status.summary(kWarn, fmt::format("{} frames are missing in {}", lost, log.path()));
+  } else {
+    status.summary(kOk, log.path());
+  }
+}
+
+Diagnostics::Diagnostics(ros::NodeHandle node, const HardwareThread& hardware,
+                         const hardware::Configuration& configuration, const WireLog* wire_log)
+    : hardware_(hardware),
+      updater_(node, node),
+      timer_(node.createSteadyTimer(ros::WallDuration(1.0),
+                                    [this](const ros::SteadyTimerEvent&) { update(); })) {
+  updater_.setHardwareID("none");
+  updater_.add("group", [this](DiagnosticStatus& status) { diagnose_group(snapshot_, status); });
+  for (const auto& bus : configuration.buses) add_bus(bus);
+  for (const auto& joint : configuration.joints) add_drive(joint);
+  if (wire_log != nullptr) {
+    updater_.add("wire log", [wire_log](DiagnosticStatus& status) { diagnose_wire_log(*wire_log, status); });
+  }
+}
+
+void Diagnostics::add_drive(const std::string& joint) {
+  updater_.add("drive " + joint, [this, joint](DiagnosticStatus& status) {
+    for (const auto& candidate : snapshot_.joints) {
+      if (candidate.joint == joint) diagnose_drive(candidate, status);
+    }
+  });
+}
+
+void Diagnostics::add_bus(const hardware::BusConfiguration& bus) {
+  updater_.add("bus " + bus.name, [this, name = bus.name, max_load = bus.max_load](DiagnosticStatus& status) {
+    for (const auto& candidate : snapshot_.buses) {
+      if (candidate.name == name) diagnose_bus(candidate, max_load, status);
+    }
+  });
+}
+
+void Diagnostics::update() {
+  hardware_.snapshot(snapshot_);
+  updater_.force_update();
+}
+
+}  // namespace interpolated_motion::node

@@ -1,0 +1,157 @@
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <actionlib/client/simple_action_client.h>
+#include <control_msgs/FollowJointTrajectoryAction.h>
+#include <fmt/format.h>
+#include <interpolated_motion_driver/GetMotionReport.h>
+#include <ros/ros.h>
+
+#include "goal_file.h"
+#include "options.h"
+#include "progress.h"
+#include "report.h"
+
+namespace interpolated_motion::tools {
+namespace {
+
+using Client = actionlib::SimpleActionClient<control_msgs::FollowJointTrajectoryAction>;
+using Clock = std::chrono::steady_clock;
+using State = actionlib::SimpleClientGoalState;
+
+enum ExitCode { kSucceeded = 0, kBadInput = 2, kRejected = 3, kNotSucceeded = 4, kTimeout = 5 };
+
+constexpr double kServerPatience = 60.0;  // s, bring-up of all drives included
+constexpr double kGoalPatience =
+    60.0;  // s beyond the goal's own length, for lead-in, settling and a loaded machine
+constexpr auto kStep = std::chrono::milliseconds(100);
+
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+double length_of(const trajectory_msgs::JointTrajectory& trajectory) {
+  return trajectory.points.empty() ? 0.0 : trajectory.points.back().time_from_start.toSec();
+}
+
+void say(const std::string& text) {
+  std::fputs((text + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
+void complain(const std::string& text) { std::fputs(("trajectory_client: " + text + "\n").c_str(), stderr); }
+
+/// Waits on the wall clock: simulated ROS time may stand still.
+template <class Done, class EachStep>
+bool wait_until(Clock::time_point deadline, Done done, EachStep each_step) {
+  while (ros::ok()) {
+    if (done()) return true;
+    if (Clock::now() > deadline) return false;
+    each_step();
+    std::this_thread::sleep_for(kStep);
+  }
+  return false;
+}
+
+bool wait_for_server(Client& client, const std::string& node, Clock::time_point deadline) {
+  auto next_message = Clock::now() + std::chrono::seconds(1);
+  return wait_until(
+      deadline, [&] { return client.isServerConnected(); },
+      [&] {
+        if (Clock::now() < next_message) return;
+        say(fmt::format("waiting for the action {}/follow_joint_trajectory", node));
+        next_message = Clock::now() + std::chrono::seconds(5);
+      });
+}
+
+void print_report(ros::NodeHandle& ros_node, const std::string& node) {
+  interpolated_motion_driver::GetMotionReport service;
+  auto client = ros_node.serviceClient<interpolated_motion_driver::GetMotionReport>(node + "/motion_report");
+  if (client.call(service)) {
+    std::fputs(report_text(service.response).c_str(), stdout);
+  } else {
+    complain(fmt::format("{}/motion_report does not answer", node));
+  }
+}
+
+std::string ending(const State& state, const std::string& text) {
+  return text.empty() ? state.toString() : state.toString() + ": " + text;
+}
+
+ExitCode exit_code(const State& state) {
+  if (state == State::SUCCEEDED) return kSucceeded;
+  return state == State::REJECTED ? kRejected : kNotSucceeded;
+}
+
+ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& trajectory) {
+  ros::NodeHandle ros_node;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  const bool limited = options.timeout > 0.0;
+  const auto limit = after(options.timeout);
+
+  Client client(options.node + "/follow_joint_trajectory", false);
+  if (!wait_for_server(client, options.node, limited ? limit : after(kServerPatience))) {
+    complain(
+        fmt::format("no action server {}/follow_joint_trajectory; is the driver running?", options.node));
+    return kTimeout;
+  }
+
+  Progress progress(length_of(trajectory));
+  const auto buffers = ros_node.subscribe<interpolated_motion_driver::BufferStatus>(
+      options.node + "/buffer_status", 1,
+      [&progress](const interpolated_motion_driver::BufferStatus::ConstPtr& message) {
+        progress.buffers(*message);
+      });
+  control_msgs::FollowJointTrajectoryGoal goal;
+  goal.trajectory = trajectory;
+  say(fmt::format("sending {} points, {:.3f} s", trajectory.points.size(), length_of(trajectory)));
+  client.sendGoal(goal, {}, {}, [&progress](const auto& feedback) { progress.feedback(*feedback); });
+
+  const auto deadline = limited ? limit : after(length_of(trajectory) + kGoalPatience);
+  const bool ended = wait_until(
+      deadline, [&] { return client.getState().isDone(); },
+      [&] {
+        if (client.getState() == State::ACTIVE) progress.show();
+      });
+  progress.finish();
+  if (!ended) {
+    client.cancelGoal();
+    // Leaving at once could lose the message on its way.
+    wait_until(
+        after(2.0), [&] { return client.getState().isDone(); }, [] {});
+    complain("no result in time; the goal is cancelled");
+    return kTimeout;
+  }
+  if (client.getState() != State::REJECTED) print_report(ros_node, options.node);
+  const auto result = client.getResult();  // none when the driver died meanwhile
+  say(ending(client.getState(), result ? result->error_string : client.getState().getText()));
+  return exit_code(client.getState());
+}
+
+}  // namespace
+}  // namespace interpolated_motion::tools
+
+int main(int argc, char** argv) {
+  using namespace interpolated_motion::tools;
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  arguments.erase(arguments.begin());
+  try {
+    const Options options = parse_options(arguments);
+    if (options.help) {
+      std::fputs(usage().c_str(), stdout);
+      return kSucceeded;
+    }
+    const auto trajectory = read_goal_file(options.goal_file);
+    ros::init(argc, argv, "trajectory_client", ros::init_options::AnonymousName);
+    return send(options, trajectory);
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return kBadInput;
+  }
+}

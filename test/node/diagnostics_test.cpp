@@ -1,0 +1,83 @@
+#include "interpolated_motion_driver/node/diagnostics.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace interpolated_motion::node {
+namespace {
+
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+motion::JointSnapshot healthy() {
+  motion::JointSnapshot joint;
+  joint.joint = "joint1";
+  joint.online = true;
+  joint.state = "Operation enabled";
+  return joint;
+}
+
+DiagnosticStatus diagnose(const motion::JointSnapshot& joint) {
+  DiagnosticStatus status;
+  diagnose_drive(joint, status);
+  return status;
+}
+
+TEST(DriveDiagnostics, AHealthyDriveTellsItsState) {
+  const auto status = diagnose(healthy());
+  EXPECT_EQ(status.level, Level::OK);
+  EXPECT_EQ(status.message, "Operation enabled");
+}
+
+TEST(DriveDiagnostics, ASilentDriveIsAnError) {
+  auto joint = healthy();
+  joint.online = false;
+  EXPECT_EQ(diagnose(joint).level, Level::ERROR);
+}
+
+TEST(DriveDiagnostics, AnErrorCodeIsToldWithItsText) {
+  auto joint = healthy();
+  joint.state = "Fault";
+  joint.error_code = 0x8611;
+  joint.error_text = "following error";
+  const auto status = diagnose(joint);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_NE(status.message.find("8611"), std::string::npos);
+  EXPECT_NE(status.message.find("following error"), std::string::npos);
+}
+
+TEST(DriveDiagnostics, ABufferThatRanDryIsAWarning) {
+  auto joint = healthy();
+  joint.underruns = 2;
+  EXPECT_EQ(diagnose(joint).level, Level::WARN);
+}
+
+TEST(DriveDiagnostics, ARecordNotTakenIsAWarning) {
+  auto joint = healthy();
+  joint.refused_writes = 1;
+  EXPECT_EQ(diagnose(joint).level, Level::WARN);
+}
+
+TEST(BusDiagnostics, WarnsAboveTheConfiguredLoad) {
+  motion::BusSnapshot bus;
+  bus.load = 0.5;
+  DiagnosticStatus status;
+  diagnose_bus(bus, 0.6, status);
+  EXPECT_EQ(status.level, Level::OK);
+  bus.load = 0.7;
+  diagnose_bus(bus, 0.6, status);
+  EXPECT_EQ(status.level, Level::WARN);
+}
+
+TEST(GroupDiagnostics, AFaultIsAnErrorWithItsReason) {
+  motion::Snapshot snapshot;
+  snapshot.state = motion::GroupState::Fault;
+  snapshot.fault = "joint3 is lost";
+  DiagnosticStatus status;
+  diagnose_group(snapshot, status);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_EQ(status.message, "joint3 is lost");
+}
+
+}  // namespace
+}  // namespace interpolated_motion::node

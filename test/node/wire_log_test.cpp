@@ -1,0 +1,80 @@
+#include "interpolated_motion_driver/node/wire_log.h"
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace interpolated_motion::node {
+namespace {
+
+canopen::Frame frame(std::uint32_t id, std::vector<std::uint8_t> data) {
+  canopen::Frame result;
+  result.id = id;
+  result.length = static_cast<std::uint8_t>(data.size());
+  std::copy(data.begin(), data.end(), result.data.begin());
+  return result;
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+class WireLogFile : public testing::Test {
+ protected:
+  void TearDown() override { std::remove(path_.c_str()); }
+
+  const std::string path_ = testing::TempDir() + "wire_log_test.log";
+};
+
+// The example of can-utils' own manual page of log2asc: "(1436509052.249713) vcan0 044#2A366C2BBA".
+TEST(CandumpLine, IsWhatCandumpWrites) {
+  const HostDuration time = std::chrono::microseconds(1436509052249713);
+  EXPECT_EQ(candump_line("vcan0", frame(0x044, {0x2A, 0x36, 0x6C, 0x2B, 0xBA}), time),
+            "(1436509052.249713) vcan0 044#2A366C2BBA\n");
+}
+
+TEST(CandumpLine, FillsUpTheMicroseconds) {
+  EXPECT_EQ(candump_line("can0", frame(0x80, {}), std::chrono::microseconds(5000042)),
+            "(5.000042) can0 080#\n");
+}
+
+TEST_F(WireLogFile, KeepsTheOrderAndAddsTheOffset) {
+  {
+    WireLog log(path_, std::chrono::seconds(1000), {"can0", "can1"});
+    log.append("can1", {frame(0x181, {0x01}), HostTime(std::chrono::milliseconds(1500)), false});
+    log.append("can0", {frame(0x182, {0x02}), HostTime(std::chrono::milliseconds(1501)), true});
+    EXPECT_EQ(log.lost(), 0U);
+  }
+  const std::vector<std::string> expected{"(1001.500000) can1 181#01", "(1001.501000) can0 182#02"};
+  EXPECT_EQ(lines_of(path_), expected);
+}
+
+TEST_F(WireLogFile, WritesEveryFrameThatIsNotCountedAsLost) {
+  constexpr std::size_t kFrames = 100000;
+  std::uint64_t lost = 0;
+  {
+    WireLog log(path_, HostDuration(0), {"can0"});
+    for (std::size_t i = 0; i < kFrames; ++i) log.append("can0", {frame(0x80, {}), HostTime{}, true});
+    lost = log.lost();
+  }
+  EXPECT_EQ(lines_of(path_).size() + lost, kFrames);
+}
+
+TEST(WireLogOpening, NamesTheFileThatCannotBeWritten) {
+  try {
+    WireLog log("/nowhere/wire.log", HostDuration(0), {"can0"});
+    FAIL() << "opened";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/wire.log"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace interpolated_motion::node
