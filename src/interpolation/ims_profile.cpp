@@ -107,8 +107,9 @@ void ImsProfile::load(const ImsSegment& segment) {
   const std::int64_t present = ims_nearest_count(scale_, state_);
   // Subtracted modulo 2^32, as the drive does.
   const std::int64_t difference = ims_register(segment.position - present);
-  direction_ = difference != 0 ? (difference < 0 ? -1 : 1) : (state_.velocity < 0 ? -1 : 1);
   target_ = sum_of(scale_, present + difference);
+  const std::int64_t towards = target_ != state_.sum ? target_ - state_.sum : state_.velocity;
+  direction_ = towards < 0 ? -1 : 1;
   velocity_ = segment.velocity;
   step_ = segment.acceleration / scale_.acceleration_per_step();
 }
@@ -120,7 +121,7 @@ void ImsProfile::tick() {
     std::int64_t next = now < velocity_ ? std::min(velocity_, now + step_) : std::max(velocity_, now - step_);
     if (next > 0 && stopping_sum(next, step_) > left) {
       const std::int64_t slowest = std::max<std::int64_t>(0, now - step_);
-      next = std::max(slowest, std::min(next, greatest_landing_velocity(left, step_)));
+      next = std::min(left, std::max(slowest, std::min(next, greatest_landing_velocity(left, step_))));
     }
     state_.velocity = direction_ * next;
   }

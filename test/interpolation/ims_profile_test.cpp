@@ -100,13 +100,25 @@ TEST(ImsProfile, LandsExactlyAcrossTheRegistersEnd) {
   EXPECT_EQ(profile.state(), ims_at_rest(scale, 2147484000));
 }
 
-TEST(ImsProfile, BrakingTooLateEndsBeyondThePosition) {
+TEST(ImsProfile, ReturnsToTheCountItStandsNextTo) {
+  const ImsScale scale;
+  ImsProfile profile(scale, {ims_at_rest(scale, 10).sum + (1 << 24), 0});  // 10.25 counts
+  profile.load({1000, 10, 1 << 8, 1 << 20});
+  profile.tick();
+  EXPECT_EQ(profile.state().velocity, -(1 << 7));
+  for (int i = 1; i < 1000; ++i) profile.tick();
+  EXPECT_EQ(profile.state(), ims_at_rest(scale, 10));
+}
+
+TEST(ImsProfile, NeverPassesItsPosition) {
   const ImsScale scale;
   ImsProfile profile(scale, {0, 1 << 26});  // 1 count per tick; 2^20 units a tick need 32 counts to stop
   profile.load({1000, 10, 1 << 21, 1 << 26});
-  for (int i = 0; i < 1000; ++i) profile.tick();
-  EXPECT_EQ(profile.state().velocity, 0);
-  EXPECT_NEAR(ims_counts(scale, profile.state()), 31.5, 0.5);
+  for (int i = 0; i < 1000; ++i) {
+    profile.tick();
+    ASSERT_LE(profile.state().sum, ims_at_rest(scale, 10).sum);
+  }
+  EXPECT_EQ(profile.state(), ims_at_rest(scale, 10));
 }
 
 std::int64_t uniform(std::mt19937_64& engine, std::int64_t low, std::int64_t high) {

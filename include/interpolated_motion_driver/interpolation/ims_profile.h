@@ -73,9 +73,11 @@ std::int64_t greatest_landing_velocity(std::int64_t distance, std::int64_t step)
 /// acceleration, towards the segment's velocity, and is then added to the sum. It is the greatest such
 /// velocity from which braking at one step a tick still ends at the position or before it. So a segment that
 /// is projected 2^30 counts ahead never brakes, and one that comes to a halt holds its velocity until the
-/// stopping distance reaches the distance left, brakes, and lands on the position exactly. If it cannot
-/// (braking has begun too late for this acceleration), it comes to rest beyond the position. Acceleration 0
-/// keeps the velocity. Direction and distance come from the difference to the present position in 32 bits.
+/// stopping distance reaches the distance left, brakes, and lands on the position exactly. It never passes
+/// the position: where braking begins too late for the acceleration, the last ticks brake harder. (That of
+/// the document's worked example is too weak by 0.014 counts, as its acceleration loses a fraction.)
+/// Acceleration 0 keeps the velocity. Direction and distance come from the difference to the present position
+/// in 32 bits.
 class ImsProfile {
  public:
   ImsProfile(const ImsScale& scale, const ImsState& state);
