@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../test/encoding/goal_paths.h"
+#include "interpolated_motion_driver/encoding/ims_encoder.h"
 #include "interpolated_motion_driver/encoding/pvt_encoder.h"
 
 namespace interpolated_motion::encoding {
@@ -69,6 +70,34 @@ void encode_ten_minutes(benchmark::State& state) {
   state.counters["records"] = static_cast<double>(records);
 }
 BENCHMARK(encode_ten_minutes)->Unit(benchmark::kMillisecond);
+
+/// All six axes of the same goal as IMS segments, certificates included. Argument: bound in counts.
+void encode_six_ims_axes(benchmark::State& state) {
+  const auto paths =
+      testing::goal_paths(std::string(IMD_SOURCE_DIR) + "/config/goals/six_axis_toppra_100ms_pva.yaml");
+  ImsEncoding encoding;
+  encoding.joint = "joint";
+  encoding.transmission = {4000, 50, 1, 0.0};
+  encoding.bound_counts = static_cast<double>(state.range(0));
+  encoding.max_motor_rpm = 4000;
+  encoding.max_motor_acceleration = 40000;
+  std::size_t segments = 0;
+  for (auto _ : state) {
+    segments = 0;
+    for (const trajectory::Path& path : paths) {
+      const double start = encoding.transmission.counts(path.sample(path.start_time()).position);
+      const auto stream = encode_ims(path, encoding, static_cast<std::int32_t>(std::lround(start)));
+      if (!stream) {
+        state.SkipWithError(stream.error().text.c_str());
+        return;
+      }
+      segments += stream.value().segments.size();
+    }
+  }
+  state.counters["segments"] = static_cast<double>(segments);
+  state.counters["segments_per_axis"] = static_cast<double>(segments) / static_cast<double>(paths.size());
+}
+BENCHMARK(encode_six_ims_axes)->ArgName("bound")->Arg(1)->Arg(2)->Arg(5)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace interpolated_motion::encoding

@@ -52,6 +52,10 @@ void AccelerationFunnel::open(const ImsRules& rules, TickSamples& samples, doubl
   const double expected = std::min(guess_, static_cast<double>(longest));
   auto stride = std::max<std::int64_t>(1, static_cast<std::int64_t>(expected) / kGatesPerLength);
   pass(motion, samples, stride, longest);
+  while (size_ == kMaxGates) {  // and still open
+    stride *= 4;
+    pass(motion, samples, stride, longest);
+  }
   while (size_ < kFewGates && stride > 1) {
     stride = std::max<std::int64_t>(1, stride / 4);
     pass(motion, samples, stride, longest);

@@ -251,7 +251,8 @@ void ImsSearch::offer(const ImsCandidate& candidate, double bound) {
   ImsMove landing;
   if (finished(candidate)) {
     kept.reach = kDone;
-  } else if (may_land(candidate.state, candidate.tick, bound, landing)) {
+  } else if (may_land(candidate.state, candidate.tick, bound, landing) &&
+             candidate.tick + landing.ticks >= samples_.end()) {
     kept.reach = kLands;
   } else {
     onward_.open(rules_, samples_, bound, candidate.tick, candidate.state, ticks_to_look(candidate.tick));
@@ -259,7 +260,8 @@ void ImsSearch::offer(const ImsCandidate& candidate, double bound) {
     kept.reach = static_cast<double>(candidate.tick) + onward_.reach();
   }
   const double position = interpolation::ims_counts(rules_.scale, candidate.state);
-  kept.misfit = std::abs(position - path_at(candidate.tick));
+  const bool holds = candidate.move.step == 0;  // preferred to a ramp that reaches no farther
+  kept.misfit = holds ? 0.0 : std::abs(position - path_at(candidate.tick));
   ++offered_;
 }
 
