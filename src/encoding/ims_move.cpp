@@ -18,8 +18,6 @@ constexpr std::int64_t kLandingMargin = 10;
 /// Ticks a settling over a few counts takes at least: 8 ms, gently.
 constexpr std::int64_t kSettlingTicks = 64;
 
-constexpr double kSecondsPerMinute = 60.0;
-
 std::int64_t whole_units(double units, std::int64_t most) {
   return units < static_cast<double>(most) ? static_cast<std::int64_t>(units) : most;
 }

@@ -295,7 +295,7 @@ TEST(ImsEncoding, ValidationNamesJointParameterValueAndRange) {
     for (const double value : {0.0, std::nan("")}) {
       encoding = ims_encoding();
       encoding.*parameter = value;
-      EXPECT_THROW(encode_ims(trajectory::Path(0.0), encoding, 0), std::invalid_argument);
+      EXPECT_THROW(encoding.validate(), std::invalid_argument);
     }
   }
 }

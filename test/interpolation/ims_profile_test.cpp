@@ -163,7 +163,7 @@ TEST(ImsProfile, LandsExactlyFromAnyVelocityWithRoomToBrake) {
     const std::int64_t acceleration = uniform(engine, 1 << 17, 1 << 24);
     const std::int64_t count = uniform(engine, -1000000, 1000000);
     // Braking needs v^2 / 2a; up to 300 counts more than that.
-    const double step = static_cast<double>(acceleration / 2);
+    const double step = static_cast<double>(acceleration) / 2;
     const double stop = static_cast<double>(velocity) * static_cast<double>(velocity) / (2 * step);
     const auto room = static_cast<std::int64_t>(stop) + velocity + any_size(engine, 34);
     const ImsState from{ims_at_rest(scale, count).sum - sign * room, sign * velocity};
