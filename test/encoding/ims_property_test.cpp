@@ -107,7 +107,10 @@ TEST(ImsProperty, RandomPathsAreExecutedWithinBoundAndLimits) {
     ASSERT_LE(execution.peak_acceleration, encoding.max_motor_acceleration * (1 + 1e-6)) << "case " << n;
     ASSERT_EQ(execution.end, std::round(encoding.transmission.counts(path.final_position()))) << "case " << n;
     ASSERT_EQ(execution.end_velocity, 0.0) << "case " << n;
-    ASSERT_LE(execution.snap, 0.1) << "case " << n;
+    // The last bit is less than what the greatest deceleration changes in a tick, counts/tick^2.
+    const double step =
+        encoding.max_motor_acceleration / 60 * encoding.transmission.counts_per_revolution * 120e-6 * 120e-6;
+    ASSERT_LE(execution.snap, 0.05 + step) << "case " << n;
     const double seconds = (path.end_time() - path.start_time()).count();
     ASSERT_GE(static_cast<double>(execution.ticks), std::floor(seconds / 120e-6)) << "case " << n;
     for (const ImsSegment& segment : stream.segments) {
