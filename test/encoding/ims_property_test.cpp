@@ -107,10 +107,11 @@ TEST(ImsProperty, RandomPathsAreExecutedWithinBoundAndLimits) {
     ASSERT_LE(execution.peak_acceleration, encoding.max_motor_acceleration * (1 + 1e-6)) << "case " << n;
     ASSERT_EQ(execution.end, std::round(encoding.transmission.counts(path.final_position()))) << "case " << n;
     ASSERT_EQ(execution.end_velocity, 0.0) << "case " << n;
-    // The last bit is less than what the greatest deceleration changes in a tick, counts/tick^2.
+    // The textbook drive decides anew each tick whether to brake, without looking at the speed it gains: it
+    // may be late by the change of a tick and its own half, two at the greatest acceleration.
     const double step =
         encoding.max_motor_acceleration / 60 * encoding.transmission.counts_per_revolution * 120e-6 * 120e-6;
-    ASSERT_LE(execution.snap, 0.05 + step) << "case " << n;
+    ASSERT_LE(execution.snap, 0.05 + 2 * step) << "case " << n;
     const double seconds = (path.end_time() - path.start_time()).count();
     ASSERT_GE(static_cast<double>(execution.ticks), std::floor(seconds / 120e-6)) << "case " << n;
     for (const ImsSegment& segment : stream.segments) {
