@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpolated_motion_driver/protocol/canopen/ring.h"
+#include "interpolated_motion_driver/protocol/silverlode/device_link.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_load.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_parameters.h"
+#include "interpolated_motion_driver/protocol/silverlode/reply_parser.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::silverlode {
+
+/// Why a line received was not taken for an answer.
+enum class UnexpectedLine : std::uint8_t {
+  NoRequest,     ///< a reply while none was awaited: late, or a second one
+  WrongAddress,  ///< a reply of another address than the one asked
+  WrongEcho,     ///< data or NAK for another command, a data reply of a wrong length, or one of a wrong kind
+  Malformed,     ///< no reply at all
+  Truncated,     ///< a line without its end when the time was over
+};
+inline constexpr int kUnexpectedLineCauses = 5;
+
+/// Lines of one cause: how many, and the last of them.
+struct UnexpectedLines {
+  std::uint64_t count = 0;
+  LineText last;
+  HostTime time{};
+};
+
+/// The host's end of one serial line with many SilverLode drives in 8-bit ASCII, sans-IO: characters received
+/// go in with `on_character`, requests come out of `peek_outgoing`/`pop_outgoing`, time is given. After
+/// construction and `add_device` nothing is allocated per exchange.
+///
+/// One exchange at a time: a request, then its reply or the time-out, which leaves `reply_timeout` to the
+/// drive besides the exact time of the characters. A request that got no whole reply is repeated when it is
+/// repeatable; IMW and IMS never are, their outcome tells that it is unknown whether the drive has them.
+/// After a time-out, a malformed line, or characters nobody asked for, the line is left alone until it was
+/// silent for `guard` (at most ten times as long when it never is).
+///
+/// Order: broadcasts; control requests, device after device in turn; bulk requests, the earliest deadline
+/// first. A device that does not answer costs a time-out an attempt, so after each failed attempt a bulk
+/// request (of a device without control requests) goes before the next control request.
+class LineMaster {
+ public:
+  /// `line_name` is used in texts. Throws std::invalid_argument with parameter, value and range.
+  explicit LineMaster(std::string line_name, LineParameters parameters = {});
+  ~LineMaster();
+  LineMaster(const LineMaster&) = delete;
+  LineMaster& operator=(const LineMaster&) = delete;
+
+  /// Adds a drive, address 1..254, not added before; throws std::invalid_argument otherwise.
+  DeviceLink& add_device(std::uint8_t address);
+  /// The device, or nullptr when it was not added.
+  DeviceLink* find_device(std::uint8_t address) { return devices_[address].get(); }
+
+  const std::string& line_name() const { return line_name_; }
+  const LineParameters& parameters() const { return parameters_; }
+
+  /// A character received; `time` is that of its last bit.
+  void on_character(char c, HostTime time);
+
+  /// Does what time demands: time-outs. Hand over the characters received until `now` before, so that a reply
+  /// which is there already prevents its time-out.
+  void poll(HostTime now);
+
+  /// When `poll`, or `peek_outgoing` for a request that waits for silence, must be called next. A request
+  /// that may go already sets no deadline: offer it to the transport after every call that may have queued
+  /// some or ended an exchange, and again when it has room.
+  HostTime next_deadline() const;
+
+  /// The text to send next, with its CR; empty when there is none or the line is taken. Valid until the next
+  /// call of any function of the master or its devices.
+  std::optional<std::string_view> peek_outgoing(HostTime now);
+  /// The transport has taken the text that `peek_outgoing` returned just before.
+  void pop_outgoing(HostTime now);
+
+  /// Sends a request to the global address to all drives, before everything else that waits. It is not
+  /// answered, and may be lost without notice. False when the queue of 8 is full or the request has another
+  /// address.
+  bool broadcast(const Request& request);
+
+  /// Ends everything that waits with outcome `Dropped`, broadcasts and bulk requests without one. For a line
+  /// that was down: a command of then must not reach a drive now. A request on the line goes on to its
+  /// outcome, yet is not repeated.
+  void clear_outgoing();
+
+  /// Time of `characters` on the line.
+  HostDuration characters_time(std::size_t characters) const;
+  /// Time the line is taken by `request` when all is well: its characters, `turnaround`, those of the longest
+  /// reply of a drive that accepts it, and `pause`; `guard` in place of the latter three when there is no
+  /// reply.
+  HostDuration exchange_time(const Request& request) const;
+  /// The longest time an attempt can take the line: reply and silence after a time-out included.
+  HostDuration longest_exchange_time(const Request& request) const;
+
+  /// Share of the line in use, see `LineLoad`.
+  double load(HostTime now) const;
+  /// As of the latest time this master was given.
+  double load() const { return load(now_); }
+
+  const UnexpectedLines& unexpected(UnexpectedLine cause) const;
+  /// "line0: 3 replies of another address than the one asked, last: \"* 12\""; empty when there were none.
+  std::string unexpected_text(UnexpectedLine cause) const;
+  /// Lines that are this host's own, heard back.
+  std::uint64_t echoes() const { return echoes_; }
+  /// Characters that belong to no line.
+  std::uint64_t dropped_characters() const { return parser_.dropped_characters(); }
+
+ private:
+  friend class DeviceLink;
+  struct Exchange {
+    DeviceLink* device = nullptr;
+    DeviceLink::Waiting sent;
+    bool may_repeat = true;
+    HostTime begin{};
+    HostTime request_end{};
+    HostTime reply_deadline{};
+  };
+  enum class Peeked : std::uint8_t { None, Broadcast, Control, Bulk };
+
+  void advance(HostTime now);
+  bool line_is_free(HostTime now) const;
+  bool something_waits() const;
+  void choose_next();
+  DeviceLink* next_control_device();
+  DeviceLink* next_bulk_device();
+  DeviceLink& device_in_turn(std::size_t offset) const;
+
+  void begin_exchange(DeviceLink& device, DeviceLink::Waiting waiting, HostTime now);
+  void send_broadcast(HostTime now);
+  bool answers(const Reply& reply);
+  void on_reply(const Reply& reply);
+  void on_malformed(HostTime time);
+  void on_timeout();
+  void fail_attempt(OutcomeKind kind, const LineText& received, HostTime time);
+  void end_exchange(HostTime time, HostDuration silence);
+  void keep_silence(HostTime from, HostDuration silence);
+  void extend_silence(HostTime time);
+  void do_not_repeat(const DeviceLink& device);
+  Outcome make_outcome(OutcomeKind kind, HostTime time) const;
+  void count(UnexpectedLine cause, const LineText& line, HostTime time);
+
+  std::string line_name_;
+  LineParameters parameters_;
+  std::array<std::unique_ptr<DeviceLink>, 256> devices_;
+  std::vector<DeviceLink*> in_order_;  ///< the devices as they were added
+  HostTime now_{};                     ///< latest time given
+
+  canopen::Ring<Request> broadcasts_;
+  Peeked peeked_ = Peeked::None;
+  DeviceLink* peeked_device_ = nullptr;
+  std::size_t control_turn_ = 0;  ///< index into `in_order_` of the device whose control request goes next
+  std::size_t bulk_turn_ = 0;     ///< the same of bulk requests with equal deadlines
+  bool bulk_first_ = false;       ///< an attempt failed: a bulk request goes before the next control request
+
+  ReplyParser parser_;
+  std::optional<Exchange> exchange_;
+  HostTime free_at_{};        ///< the line may be used from then on
+  HostTime silence_begin_{};  ///< start of the wait for silence that ends with `free_at_`
+
+  LineLoad load_;
+  std::array<UnexpectedLines, kUnexpectedLineCauses> unexpected_{};
+  std::uint64_t echoes_ = 0;
+};
+
+}  // namespace interpolated_motion::silverlode
