@@ -53,8 +53,8 @@ class DeviceLink {
   /// Takes the bulk request back; it never reaches the line and has no outcome. False when none waits.
   bool withdraw_bulk();
 
-  /// Ends all control requests that wait, outcome `Dropped`, and takes a bulk request back. One that is on
-  /// the line goes on to its outcome, yet is not repeated.
+  /// Ends all requests that wait, outcome `Dropped`. One that is on the line goes on to its outcome, yet is
+  /// not repeated.
   void drop_requests();
 
   /// The oldest outcome not yet taken.
@@ -87,8 +87,8 @@ class DeviceLink {
   Waiting take_control();
   Waiting take_bulk();
   void give_up_repeat();
+  void finish_unsent(const Waiting& waiting);
   void count(const Outcome& outcome);
-  void finish(const Outcome& outcome);
 
   LineMaster& master_;
   std::uint8_t address_;

@@ -27,10 +27,11 @@ enum class UnexpectedLine : std::uint8_t {
 };
 inline constexpr int kUnexpectedLineCauses = 5;
 
-/// Lines of one cause: how many, and the last of them.
+/// Lines of one cause: how many, the last of them, and what had been sent before it.
 struct UnexpectedLines {
   std::uint64_t count = 0;
   LineText last;
+  LineText sent;
   HostTime time{};
 };
 
@@ -86,7 +87,7 @@ class LineMaster {
   /// address.
   bool broadcast(const Request& request);
 
-  /// Ends everything that waits with outcome `Dropped`, broadcasts and bulk requests without one. For a line
+  /// Ends all requests that wait with outcome `Dropped`, and forgets broadcasts. For a line
   /// that was down: a command of then must not reach a drive now. A request on the line goes on to its
   /// outcome, yet is not repeated.
   void clear_outgoing();
@@ -106,7 +107,8 @@ class LineMaster {
   double load() const { return load(now_); }
 
   const UnexpectedLines& unexpected(UnexpectedLine cause) const;
-  /// "line0: 3 replies of another address than the one asked, last: \"* 12\""; empty when there were none.
+  /// `line0: a reply of another address than the one asked came 3 times, last "* 12" after "@17 20"`; empty
+  /// when there were none.
   std::string unexpected_text(UnexpectedLine cause) const;
   /// Lines that are this host's own, heard back.
   std::uint64_t echoes() const { return echoes_; }
@@ -122,30 +124,30 @@ class LineMaster {
     HostTime begin{};
     HostTime request_end{};
     HostTime reply_deadline{};
+    LineText other;  ///< the last line received that was not the answer
   };
   enum class Peeked : std::uint8_t { None, Broadcast, Control, Bulk };
 
   void advance(HostTime now);
-  bool line_is_free(HostTime now) const;
   bool something_waits() const;
   void choose_next();
-  DeviceLink* next_control_device();
-  DeviceLink* next_bulk_device();
-  DeviceLink& device_in_turn(std::size_t offset) const;
+  void pass_on(std::size_t& turn) const;
+  std::optional<std::size_t> next_control_device() const;
+  std::optional<std::size_t> next_bulk_device() const;
+  void do_not_repeat(const DeviceLink& device);
 
   void begin_exchange(DeviceLink& device, DeviceLink::Waiting waiting, HostTime now);
+  void end_unanswered();
   void send_broadcast(HostTime now);
-  bool answers(const Reply& reply);
+  void await_silence(HostTime time);
   void on_reply(const Reply& reply);
+  void ignore_line(UnexpectedLine cause, HostTime time);
   void on_malformed(HostTime time);
   void on_timeout();
   void fail_attempt(OutcomeKind kind, const LineText& received, HostTime time);
   void end_exchange(HostTime time, HostDuration silence);
-  void keep_silence(HostTime from, HostDuration silence);
-  void extend_silence(HostTime time);
-  void do_not_repeat(const DeviceLink& device);
   Outcome make_outcome(OutcomeKind kind, HostTime time) const;
-  void count(UnexpectedLine cause, const LineText& line, HostTime time);
+  void count(UnexpectedLine cause, HostTime time);
 
   std::string line_name_;
   LineParameters parameters_;
@@ -162,8 +164,10 @@ class LineMaster {
 
   ReplyParser parser_;
   std::optional<Exchange> exchange_;
-  HostTime free_at_{};        ///< the line may be used from then on
-  HostTime silence_begin_{};  ///< start of the wait for silence that ends with `free_at_`
+  LineText last_sent_;
+  HostTime free_at_{};      ///< the line may be used from then on
+  HostTime noise_begin_{};  ///< first and last of the latest characters without a request
+  HostTime noise_end_{};
 
   LineLoad load_;
   std::array<UnexpectedLines, kUnexpectedLineCauses> unexpected_{};

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace interpolated_motion::silverlode {
 
-/// Up to 64 characters of a line, kept without allocation. What does not fit is dropped, `complete` tells.
+/// Up to 64 characters of a line, kept without allocation. Those that do not fit are only counted.
 class LineText {
  public:
   static constexpr std::size_t kCapacity = 64;
@@ -19,29 +18,24 @@ class LineText {
   }
 
   void append(char c) {
-    if (size_ == kCapacity) {
-      complete_ = false;
-      return;
-    }
-    characters_[size_++] = c;
+    if (length_ < kCapacity) characters_[length_] = c;
+    ++length_;
   }
-  void clear() {
-    size_ = 0;
-    complete_ = true;
-  }
+  void clear() { length_ = 0; }
 
-  bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
-  bool complete() const { return complete_; }
-  std::string_view view() const { return {characters_.data(), size_}; }
+  bool empty() const { return length_ == 0; }
+  /// Characters appended, kept or not.
+  std::size_t length() const { return length_; }
+  bool complete() const { return length_ <= kCapacity; }
+  /// The characters kept.
+  std::string_view view() const { return {characters_.data(), complete() ? length_ : kCapacity}; }
 
   /// For messages: without CR and LF at the end, unprintable characters as \xHH, "..." when not complete.
   std::string printable() const;
 
  private:
   std::array<char, kCapacity> characters_{};
-  std::uint8_t size_ = 0;
-  bool complete_ = true;
+  std::size_t length_ = 0;
 };
 
 }  // namespace interpolated_motion::silverlode

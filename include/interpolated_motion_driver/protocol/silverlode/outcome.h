@@ -40,7 +40,8 @@ struct Outcome {
   HostTime request_end{};  ///< last bit of the request on the line (of the last attempt), computed
   HostTime reply_begin{};  ///< first bit of the reply: `reply_end` less the reply's length
   HostTime reply_end{};    ///< last bit of the reply; without one, when it was given up
-  LineText received;       ///< Garbled only: the line that came instead
+  /// Garbled: the line that came instead. NoReply: a line that came meanwhile and was not the answer, if any.
+  LineText received;
 
   /// The drive has taken the request.
   bool accepted() const { return kind == OutcomeKind::Acknowledged || kind == OutcomeKind::Data; }
