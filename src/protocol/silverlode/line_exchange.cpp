@@ -166,13 +166,13 @@ void LineMaster::fail_attempt(OutcomeKind kind, const LineText& received, HostTi
   const bool repeat =
       exchange_->may_repeat && sent.request.repeatable && sent.attempts <= parameters_.repeats;
   end_exchange(std::max(time, exchange_->request_end), parameters_.guard);
+  bulk_first_ = sent.request.repeatable;
   if (!repeat) {
     device.outcomes_.push(outcome);
     return;
   }
   device.repeat_ = sent;
   device.failure_ = outcome;
-  bulk_first_ = true;
 }
 
 void LineMaster::end_exchange(HostTime time, HostDuration silence) {

@@ -1,23 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "interpolated_motion_driver/protocol/canopen/master.h"
+#include "protocol/allocation_count.h"
 #include "protocol/canopen/bytes.h"
-
-// Counts the allocations of the whole test program, so that those of the master can be told.
-namespace {
-std::size_t allocation_count = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocation_count;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace interpolated_motion::canopen::test {
 namespace {
@@ -35,7 +20,7 @@ TEST(MasterAllocation, NoneForAFrame) {
   int transfers = 0;
   int sent = 0;
 
-  const std::size_t before = allocation_count;
+  const std::size_t before = interpolated_motion::test::allocation_count();
   for (int ms = 0; ms < 1000; ++ms) {
     const HostTime now = at_ms(ms);
     master.on_frame({make_frame(0x183, {0x37, 0x13}), now, false});
@@ -53,7 +38,7 @@ TEST(MasterAllocation, NoneForAFrame) {
       ++sent;
     }
   }
-  EXPECT_EQ(allocation_count - before, 0u);
+  EXPECT_EQ(interpolated_motion::test::allocation_count() - before, 0u);
   EXPECT_EQ(pdos, 1000);
   EXPECT_EQ(transfers, 999);
   EXPECT_GT(sent, 3000);

@@ -160,7 +160,7 @@ class LineMaster {
   DeviceLink* peeked_device_ = nullptr;
   std::size_t control_turn_ = 0;  ///< index into `in_order_` of the device whose control request goes next
   std::size_t bulk_turn_ = 0;     ///< the same of bulk requests with equal deadlines
-  bool bulk_first_ = false;       ///< an attempt failed: a bulk request goes before the next control request
+  bool bulk_first_ = false;       ///< a control attempt failed: a bulk request goes before the next one
 
   ReplyParser parser_;
   std::optional<Exchange> exchange_;
