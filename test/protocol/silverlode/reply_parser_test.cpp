@@ -172,7 +172,7 @@ TEST(ReplyParser, UnfinishedLine) {
 
 /// The grammar of the replies once more, as a regular expression over the text behind the last start of a
 /// line.
-bool is_reply_line(std::string line) {
+bool is_reply_line(const std::string& line) {
   std::string kept;
   for (const char c : line) {
     if (c != '\n') kept += c;

@@ -75,7 +75,7 @@ Request erl_request(std::uint8_t address, std::int16_t moving, std::int16_t hold
 Request cis_request(std::uint8_t address);
 /// Bits of the internal status word that stop the motor (`enable`), in which state each.
 Request kmc_request(std::uint8_t address, std::uint16_t enable, std::uint16_t state);
-/// `delay` of every reply in servo ticks. Asks the turnaround of the line's parameters to be as long.
+/// `delay` of replies in servo ticks: `LineParameters::reply_timeout` must be longer.
 Request adl_request(std::uint8_t address, std::uint16_t delay);
 Request emd_request(std::uint8_t address);
 Request dmd_request(std::uint8_t address);
