@@ -236,7 +236,7 @@ TEST(LineExchange, ConfigurationIsChecked) {
   try {
     LineParameters parameters;
     parameters.baud = 1;
-    LineMaster("line7", parameters);
+    const LineMaster master7("line7", parameters);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "line7: baud = 1 is not in 300..250000");

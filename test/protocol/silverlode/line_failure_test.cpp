@@ -22,7 +22,9 @@ TEST(LineFailure, SilenceEndsInTimeOutsAndRepeats) {
   // 7 characters out, 15 of the longest reply, 20 ms; then 10 ms of silence.
   const double timeout = 22 * kC + 20000;
   ASSERT_EQ(line.sent().size(), 4u);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(to_us(line.sent()[i].begin), i * (timeout + 10000), 1) << i;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(to_us(line.sent()[i].begin), static_cast<double>(i) * (timeout + 10000), 1) << i;
+  }
   const std::vector<Outcome> outcomes = take_all(drive);
   ASSERT_EQ(outcomes.size(), 1u);
   EXPECT_EQ(outcomes[0].kind, OutcomeKind::NoReply);
