@@ -9,10 +9,15 @@ namespace interpolated_motion::emulation {
 
 World::World(HostTime start) : now_(start) {}
 
+void World::require_free_name(const std::string& name) const {
+  const auto has_name = [&](const auto& one) { return one->name() == name; };
+  const bool taken = std::any_of(buses_.begin(), buses_.end(), has_name) ||
+                     std::any_of(lines_.begin(), lines_.end(), has_name);
+  if (taken) throw std::invalid_argument(fmt::format("bus {}: the name is taken", name));
+}
+
 transport::VirtualCanBus& World::add_can_bus(std::string name, int bitrate) {
-  for (const auto& bus : buses_) {
-    if (bus->name() == name) throw std::invalid_argument(fmt::format("bus {}: the name is taken", name));
-  }
+  require_free_name(name);
   buses_.push_back(std::make_unique<transport::VirtualCanBus>(std::move(name), bitrate, now_));
   return *buses_.back();
 }
@@ -36,17 +41,47 @@ transport::CanBus& World::can_bus(std::string_view name) {
   throw std::invalid_argument(fmt::format("bus {}: there is no emulated bus of that name", name));
 }
 
+transport::VirtualSerialLine& World::add_serial_line(std::string name,
+                                                     const transport::SerialLineParameters& parameters) {
+  require_free_name(name);
+  lines_.push_back(std::make_unique<transport::VirtualSerialLine>(std::move(name), parameters, now_));
+  return *lines_.back();
+}
+
+SilverDust& World::add_silverdust(transport::VirtualSerialLine& line,
+                                  const SilverDustParameters& parameters) {
+  for (const SerialMember& member : serial_members_) {
+    if (member.line == &line && member.drive->parameters().address == parameters.address) {
+      throw std::invalid_argument(
+          fmt::format("line {}: address {} is taken by another drive", line.name(), parameters.address));
+    }
+  }
+  validate(parameters);
+  serial_members_.push_back({&line, std::make_unique<SilverDust>(line, parameters, now_)});
+  return *serial_members_.back().drive;
+}
+
+transport::SerialLine& World::serial_line(std::string_view name) {
+  for (const auto& line : lines_) {
+    if (line->name() == name) return line->host();
+  }
+  throw std::invalid_argument(fmt::format("line {}: there is no emulated line of that name", name));
+}
+
 HostTime World::next_event() const {
   HostTime next = kNever;
   for (const auto& bus : buses_) next = std::min(next, bus->next_event());
   for (const Member& member : members_) next = std::min(next, member.drive->next_event());
+  for (const auto& line : lines_) next = std::min(next, line->next_event());
+  for (const SerialMember& member : serial_members_) next = std::min(next, member.drive->next_event());
   return next;
 }
 
 std::uint64_t World::delivered() const {
-  std::uint64_t frames = 0;
-  for (const auto& bus : buses_) frames += bus->delivered_to_host();
-  return frames;
+  std::uint64_t events = 0;
+  for (const auto& bus : buses_) events += bus->delivered_to_host();
+  for (const auto& line : lines_) events += line->host_wakeups();
+  return events;
 }
 
 void World::process_events() {
@@ -55,6 +90,12 @@ void World::process_events() {
   }
   for (const auto& bus : buses_) {
     if (bus->next_event() <= now_) bus->process(now_);
+  }
+  for (const SerialMember& member : serial_members_) {
+    if (member.drive->next_event() <= now_) member.drive->process(now_);
+  }
+  for (const auto& line : lines_) {
+    if (line->next_event() <= now_) line->process(now_);
   }
 }
 
@@ -65,11 +106,13 @@ HostTime World::advance(HostTime limit) {
     if (next > limit) {
       now_ = std::max(now_, limit);
       for (const auto& bus : buses_) bus->process(now_);
+      for (const auto& line : lines_) line->process(now_);
       break;
     }
     now_ = std::max(now_, next);
     process_events();
   }
+  for (const SerialMember& member : serial_members_) member.drive->process(now_);
   return now_;
 }
 

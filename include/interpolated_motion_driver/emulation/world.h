@@ -8,8 +8,12 @@
 
 #include "interpolated_motion_driver/emulation/epos_drive.h"
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust.h"
+#include "interpolated_motion_driver/emulation/silverdust_parameters.h"
 #include "interpolated_motion_driver/transport/can_bus.h"
+#include "interpolated_motion_driver/transport/serial_line.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
+#include "interpolated_motion_driver/transport/virtual_serial_line.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::emulation {
@@ -42,13 +46,26 @@ class World {
   /// valid.
   EposDrive& add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters);
 
+  /// A new serial line. Throws std::invalid_argument when the name is taken (by a line or a bus) or a
+  /// parameter is out of range. The reference stays valid.
+  transport::VirtualSerialLine& add_serial_line(std::string name,
+                                                const transport::SerialLineParameters& parameters = {});
+
+  /// A new drive on `line`. Throws std::invalid_argument for a wrong parameter or an address already taken on
+  /// that line. The reference stays valid.
+  SilverDust& add_silverdust(transport::VirtualSerialLine& line, const SilverDustParameters& parameters);
+
+  /// The host's side of a line. Throws std::invalid_argument when there is no line of that name.
+  transport::SerialLine& serial_line(std::string_view name);
+
   /// The host's side of a bus. Throws std::invalid_argument when there is no bus of that name.
   transport::CanBus& can_bus(std::string_view name);
 
   /// Runs buses and drives up to `limit`, or only up to the instant at which a frame (of a drive, or the echo
-  /// of one of the host) becomes available to the host. Returns that time, which is now() from then on.
-  /// Frames the host left unread earlier do not end a call. Frames sent with a time stamp ahead of now()
-  /// leave at that time.
+  /// of one of the host) becomes available to the host, or a line of text does: on a serial line the host is
+  /// woken at a CR and when the line goes idle, not at each character, but each has its own time. Returns
+  /// that time, which is now() from then on. What the host left unread earlier does not end a call. Frames
+  /// and text sent with a time stamp ahead of now() leave at that time.
   HostTime advance(HostTime limit);
 
   /// Virtual time up to which everything has been computed.
@@ -60,6 +77,12 @@ class World {
     std::unique_ptr<EposDrive> drive;
   };
 
+  struct SerialMember {
+    transport::VirtualSerialLine* line;
+    std::unique_ptr<SilverDust> drive;
+  };
+
+  void require_free_name(const std::string& name) const;
   HostTime next_event() const;
   std::uint64_t delivered() const;
   void process_events();
@@ -67,6 +90,8 @@ class World {
   HostTime now_;
   std::vector<std::unique_ptr<transport::VirtualCanBus>> buses_;
   std::vector<Member> members_;
+  std::vector<std::unique_ptr<transport::VirtualSerialLine>> lines_;
+  std::vector<SerialMember> serial_members_;
 };
 
 }  // namespace interpolated_motion::emulation

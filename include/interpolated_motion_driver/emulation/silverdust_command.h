@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace interpolated_motion::emulation {
+
+/// The commands an emulated SilverDust knows, with their numbers.
+enum class Command : std::uint16_t {
+  Poll = 0,                     // POL
+  ClearPoll = 1,                // CPL
+  Halt = 2,                     // HLT
+  Stop = 3,                     // STP
+  Restart = 4,                  // RST
+  Revision = 5,                 // RVN
+  ClearProgram = 8,             // CLP
+  RunProgram = 10,              // RUN
+  WriteRegister = 11,           // WRI
+  ReadRegister = 12,            // RRG
+  VelocityMode = 15,            // VMI
+  ReadInternalStatus = 20,      // RIS
+  ReadIo = 21,                  // RIO
+  WriteQueue = 25,              // IMW
+  PollRoutine = 27,             // POR
+  MoveAbsolute = 134,           // MAV
+  MoveRelative = 135,           // MRV
+  ZeroTargetAndPosition = 145,  // ZTP
+  TargetToPosition = 146,       // TTP
+  TorqueLimits = 149,           // TQL
+  ErrorLimits = 151,            // ERL
+  WriteRegisterProgram = 154,   // WRP
+  Identity = 155,               // IDT
+  ClearInternalStatus = 163,    // CIS
+  CheckInternalStatus = 164,    // CKS
+  KillMotorConditions = 167,    // KMC
+  AckDelay = 173,               // ADL
+  KillEnableDriver = 182,       // KED
+  KillDisableDriver = 183,      // KDD
+  EnableDriver = 227,           // EMD
+  DisableDriver = 228,          // DMD
+  InterpolatedMoveStart = 253,  // IMS
+  QueueClear = 254,             // IMQ
+};
+
+/// When a command is obeyed.
+enum class CommandClass {
+  Immediate,  ///< A: always
+  Override,   ///< F: always; takes over what is running
+  Program,    ///< D and E: only while neither a program nor a motion runs, else NAK 2
+};
+
+struct CommandInfo {
+  Command command;
+  CommandClass command_class;
+  std::size_t minimum_parameters;
+  std::size_t maximum_parameters;
+};
+
+/// Null when the drive does not know the number.
+const CommandInfo* find_command(std::int64_t number);
+
+/// Codes of a NAK.
+enum class NakCode : std::uint16_t {
+  BadCommand = 1,
+  Busy = 2,
+  BadFormat = 5,
+  BufferFull = 6,
+};
+
+}  // namespace interpolated_motion::emulation

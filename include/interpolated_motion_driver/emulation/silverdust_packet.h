@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace interpolated_motion::emulation {
+
+/// A packet of the 8-bit ASCII protocol, `@address command parameter ... CR`.
+struct Packet {
+  static constexpr std::size_t kMaximumParameters = 15;
+
+  bool well_formed = true;  ///< false: something else than digits, signs and spaces in it, or too long
+  bool too_long = false;
+  std::int64_t address = -1;  ///< -1: none
+  std::int64_t command = 0;   ///< 0 (POL) when the packet ends after the address
+  std::array<std::int64_t, kMaximumParameters> parameters{};
+  std::size_t parameter_count = 0;
+};
+
+/// Makes packets of characters. Tolerates what hosts send: several spaces in a row, spaces before the CR, LF
+/// anywhere; everything outside a packet (the answers of other drives) is passed over.
+class PacketParser {
+ public:
+  /// The packet that this character, a CR, has completed.
+  std::optional<Packet> on_character(char value);
+
+  /// Packets cut short by an '@' so far.
+  std::uint64_t aborted() const { return aborted_; }
+
+  void reset() { inside_ = false; }
+
+ private:
+  void begin();
+  void digit(int value);
+  void end_number();
+  void store(std::int64_t value);
+
+  Packet packet_;
+  bool inside_ = false;
+  std::size_t numbers_ = 0;
+  bool in_number_ = false;
+  bool negative_ = false;
+  bool has_digits_ = false;
+  std::int64_t value_ = 0;
+  std::uint64_t aborted_ = 0;
+};
+
+}  // namespace interpolated_motion::emulation

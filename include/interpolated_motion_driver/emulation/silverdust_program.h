@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace interpolated_motion::emulation {
+
+/// One line of a standalone program on the drive, as far as interpolated motion needs them.
+struct ProgramStep {
+  enum class Kind {
+    WriteRegister,       ///< WRP: register `target` := `value`
+    CopyRegisters,       ///< `count` registers from `value` on go to `target` on
+    StartInterpolation,  ///< IMS
+    WaitSegmentTaken,    ///< until the high word of register 17 is not 0
+  };
+
+  Kind kind = Kind::WaitSegmentTaken;
+  std::int64_t target = 0;
+  std::int32_t value = 0;
+  std::int64_t count = 0;
+
+  static ProgramStep write(std::int64_t reg, std::int32_t value) {
+    return {Kind::WriteRegister, reg, value, 0};
+  }
+  static ProgramStep copy(std::int32_t from, std::int64_t to, std::int64_t count) {
+    return {Kind::CopyRegisters, to, from, count};
+  }
+  static ProgramStep start() { return {Kind::StartInterpolation, 0, 0, 0}; }
+  static ProgramStep wait_taken() { return {Kind::WaitSegmentTaken, 0, 0, 0}; }
+};
+
+/// What a program works on.
+class ProgramTarget {
+ public:
+  virtual ~ProgramTarget() = default;
+  virtual void program_write(std::int64_t reg, std::int32_t value) = 0;
+  virtual std::int32_t program_read(std::int64_t reg) const = 0;
+  virtual void program_start_interpolation() = 0;
+};
+
+/// A stored program; it runs beside a motion, one line a servo tick.
+class StoredProgram {
+ public:
+  void load(std::vector<ProgramStep> steps) {
+    steps_ = std::move(steps);
+    running_ = false;
+  }
+  void run() {
+    next_ = 0;
+    running_ = !steps_.empty();
+  }
+  void stop() { running_ = false; }
+  bool running() const { return running_; }
+
+  /// One servo tick while running.
+  void tick(ProgramTarget& target);
+
+ private:
+  bool execute(const ProgramStep& step, ProgramTarget& target) const;
+
+  std::vector<ProgramStep> steps_;
+  std::size_t next_ = 0;
+  bool running_ = false;
+};
+
+}  // namespace interpolated_motion::emulation
