@@ -61,7 +61,7 @@ std::int64_t ProfileScale::step(std::int64_t acceleration, int full_scale) const
 }
 
 ProfileGenerator::ProfileGenerator(const SilverDustParameters& parameters)
-    : scale_(parameters), order_(parameters.integration_order) {}
+    : scale_(parameters), integration_(parameters.integration) {}
 
 void ProfileGenerator::place(std::int64_t counts) {
   counts_ = counts;
@@ -89,7 +89,8 @@ void ProfileGenerator::brake(std::int64_t step) {
 }
 
 double ProfileGenerator::position() const {
-  return static_cast<double>(counts_) + static_cast<double>(fraction_) / static_cast<double>(scale_.count);
+  return static_cast<double>(counts_) +
+         static_cast<double>(fraction_) / static_cast<double>(2 * scale_.count);
 }
 
 double ProfileGenerator::counts_per_tick() const {
@@ -108,44 +109,53 @@ bool ProfileGenerator::done() const {
 
 void ProfileGenerator::tick() {
   if (command_ == Command::Stand) return;
-  if (order_ == IntegrationOrder::PositionFirst) advance();
-  velocity_ = next_velocity();
-  if (order_ == IntegrationOrder::VelocityFirst) advance();
+  const std::int64_t old = velocity_;
+  switch (integration_) {
+    case Integration::MeanVelocity:
+      // Half of the old velocity is travelled whatever the new one is.
+      velocity_ = next_velocity(old * scale_.advance);
+      return move_by((old + velocity_) * scale_.advance);
+    case Integration::VelocityFirst:
+      velocity_ = next_velocity(0);
+      return move_by(2 * velocity_ * scale_.advance);
+    case Integration::PositionFirst:
+      move_by(2 * old * scale_.advance);
+      velocity_ = next_velocity(0);
+      return;
+  }
 }
-
-void ProfileGenerator::advance() { move_by(velocity_ * scale_.advance); }
 
 void ProfileGenerator::move_by(std::int64_t distance) {
   const std::int64_t sum = fraction_ + distance;
-  const std::int64_t whole = floor_division(sum, scale_.count);
+  const std::int64_t whole = floor_division(sum, 2 * scale_.count);
   counts_ += whole;
-  fraction_ = sum - whole * scale_.count;
+  fraction_ = sum - whole * 2 * scale_.count;
 }
 
-std::int64_t ProfileGenerator::next_velocity() {
+// Velocity of the next tick, when the target will have moved by `ahead` before it counts.
+std::int64_t ProfileGenerator::next_velocity(std::int64_t ahead) {
   if (command_ == Command::RunAt) {
     return velocity_ < speed_ ? std::min(velocity_ + step_, speed_) : std::max(velocity_ - step_, speed_);
   }
   if (step_ == 0) return velocity_;
-  const std::int64_t rest = remaining();
+  const std::int64_t rest = remaining() - ahead;
   if (rest == 0 && velocity_ == 0) return 0;
-  if (std::abs(rest) < scale_.advance && std::abs(velocity_) <= step_) {
+  if (std::abs(rest) < 2 * scale_.advance && std::abs(velocity_) <= step_) {
     move_by(rest);
     return 0;
   }
   const bool forward = rest != 0 ? rest > 0 : velocity_ > 0;
   const std::int64_t speed = forward ? velocity_ : -velocity_;
-  const std::int64_t next = approach((forward ? rest : -rest), speed);
+  const std::int64_t next = approach(std::abs(rest), speed);
   return forward ? next : -next;
 }
 
-// Distance to the commanded position in the fraction of a count that `scale_.count` makes, the nearer way
-// round the 32 bit range.
+// Distance to the commanded position in the unit of `fraction_`, the nearer way round the 32 bit range.
 std::int64_t ProfileGenerator::remaining() const {
   const std::uint32_t difference = static_cast<std::uint32_t>(goal_) - static_cast<std::uint32_t>(counts_);
   const std::int64_t whole = static_cast<std::int32_t>(difference);
-  const std::int64_t representable = kFar / scale_.count;
-  return std::clamp(whole, -representable, representable) * scale_.count - fraction_;
+  const std::int64_t representable = kFar / (2 * scale_.count);
+  return std::clamp(whole, -representable, representable) * 2 * scale_.count - fraction_;
 }
 
 std::int64_t ProfileGenerator::ramp(std::int64_t speed) const {
@@ -155,7 +165,7 @@ std::int64_t ProfileGenerator::ramp(std::int64_t speed) const {
 // Speed of the next tick, in the direction of the commanded position, which is `distance` away.
 std::int64_t ProfileGenerator::approach(std::int64_t distance, std::int64_t speed) const {
   if (speed < 0) return std::min<std::int64_t>(speed + step_, 0);
-  const std::int64_t reach = distance / scale_.advance;
+  const std::int64_t reach = distance / (2 * scale_.advance);
   std::int64_t high = ramp(speed);
   if (stopping_distance(high) <= reach) return high;
   std::int64_t low = std::max<std::int64_t>(speed - 2 * step_, 0);

@@ -17,10 +17,10 @@ struct SilverDustSample {
   HostTime time{};                      ///< of the tick
   std::int64_t ticks_since_start = -1;  ///< 0 at the tick that loaded the first segment of an IMS operation,
                                         ///< k after k ticks; keeps its last value afterwards; -1 before
-  bool interpolating = false;  ///< an IMS operation made this tick, the one that ends it included
-  double demand = 0.0;         ///< target position with its fraction, counts, not wrapped to 32 bit
-  double velocity = 0.0;       ///< of the target, counts per tick
-  std::int32_t actual = 0;     ///< actual position, counts
+  bool interpolating = false;           ///< an IMS operation made this tick, the one that ends it included
+  double demand = 0.0;                  ///< target position with its fraction, counts, not wrapped to 32 bit
+  double velocity = 0.0;                ///< of the target, counts per tick
+  std::int32_t actual = 0;              ///< actual position, counts
 };
 
 /// What an emulated drive has counted since it was made.

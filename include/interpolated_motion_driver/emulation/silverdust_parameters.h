@@ -21,11 +21,13 @@ enum class DisabledStartReply {
   Busy,          ///< NAK 2 (device busy)
 };
 
-/// Order of the two steps of the profile generator within a servo tick. The worked example of Doc ends at the
-/// same count with both; its inner marks differ by up to 5 counts.
-enum class IntegrationOrder {
-  VelocityFirst,  ///< the velocity ramps, then the position advances by the new velocity
-  PositionFirst,  ///< the position advances by the velocity of the tick before
+/// By which velocity the target advances in a servo tick in which the profile generator's velocity ramps. The
+/// worked example of Doc ends at the same count with all three and reaches its inner marks with MeanVelocity;
+/// the others are up to half a tick of travel before or behind them (8 counts of 72000).
+enum class Integration {
+  MeanVelocity,   ///< the mean of the old and the new velocity, as constant acceleration makes it
+  VelocityFirst,  ///< the new velocity
+  PositionFirst,  ///< the old velocity
 };
 
 /// Acceleration per tick in velocity units, where the scales do not make it whole (IMS: acceleration / 2).
@@ -57,7 +59,7 @@ struct SilverDustParameters {
   HostDuration tick = std::chrono::microseconds(120);  ///< servo cycle, 10..1000 us
   double clock_error_ppm = 0.0;                        ///< > 0: the drive's crystal is fast; |ppm| <= 100000
   HostDuration tick_phase{0};  ///< of the drive's ticks against its power-up, 0 .. tick
-  IntegrationOrder integration_order = IntegrationOrder::VelocityFirst;
+  Integration integration = Integration::MeanVelocity;
   AccelerationRounding acceleration_rounding = AccelerationRounding::Truncated;
 
   int ims_arguments = -1;  ///< numbers IMS must come with; 0, 2, or -1 for both. Not documented

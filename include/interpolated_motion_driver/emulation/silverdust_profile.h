@@ -74,22 +74,21 @@ class ProfileGenerator {
  private:
   enum class Command { Stand, MoveTo, RunAt };
 
-  std::int64_t next_velocity();
+  std::int64_t next_velocity(std::int64_t ahead);
   std::int64_t approach(std::int64_t distance, std::int64_t speed) const;
   std::int64_t ramp(std::int64_t speed) const;
   std::int64_t stopping_distance(std::int64_t speed) const;
   std::int64_t remaining() const;
-  void advance();
   void move_by(std::int64_t distance);
 
   ProfileScale scale_;
-  IntegrationOrder order_;
+  Integration integration_;
   Command command_ = Command::Stand;
   std::int32_t goal_ = 0;
   std::int64_t step_ = 0;
   std::int64_t speed_ = 0;  ///< commanded, fractions; signed for RunAt
   std::int64_t counts_ = 0;
-  std::int64_t fraction_ = 0;  ///< 0..scale_.count - 1, of a count
+  std::int64_t fraction_ = 0;  ///< halves of 1/`scale_.count`: 0..2 * scale_.count - 1
   std::int64_t velocity_ = 0;
 };
 
