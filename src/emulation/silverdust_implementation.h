@@ -14,9 +14,9 @@
 
 namespace interpolated_motion::emulation {
 
-// The parts of the drive put together. Four source files: power, clock and characters
-// (silverdust_implementation.cpp), commands (silverdust_commands.cpp), motion and faults
-// (silverdust_motion.cpp), registers and status words (silverdust_state.cpp).
+// The parts of the drive put together. Five source files: power, clock and characters
+// (silverdust_implementation.cpp), commands (silverdust_commands.cpp, silverdust_command_actions.cpp), motion
+// and faults (silverdust_motion.cpp), registers and status words (silverdust_state.cpp).
 class SilverDust::Implementation : public ProgramTarget {
  public:
   Implementation(transport::VirtualSerialLine& line, transport::SerialListener& listener,
@@ -71,6 +71,12 @@ class SilverDust::Implementation : public ProgramTarget {
   Answer obey(const CommandInfo& info, const Packet& packet);
   Answer immediate(Command command, const Packet& packet);
   Answer program(Command command, const Packet& packet);
+  Answer bad_value();
+  Answer cannot_start();
+  static Answer nak(NakCode code);
+  static Answer word(std::uint16_t value, std::uint16_t echo);
+
+  // silverdust_command_actions.cpp
   Answer read_registers(const Packet& packet);
   Answer write_register(const Packet& packet);
   Answer write_queue(const Packet& packet);
@@ -85,10 +91,6 @@ class SilverDust::Implementation : public ProgramTarget {
   Answer check_status(const Packet& packet);
   Answer kill_conditions(const Packet& packet);
   Answer clear_poll(const Packet& packet);
-  Answer bad_value();
-  Answer cannot_start();
-  static Answer nak(NakCode code);
-  static Answer word(std::uint16_t value, std::uint16_t echo);
 
   // silverdust_motion.cpp
   void tick();

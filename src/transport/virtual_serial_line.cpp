@@ -7,12 +7,13 @@
 #include <optional>
 #include <stdexcept>
 
+#include "serial_overlay.h"
+
 namespace interpolated_motion::transport {
 namespace {
 
 constexpr std::size_t kInjectors = 2;
 constexpr std::size_t kHost = kInjectors;
-constexpr int kDataBits = 8;
 constexpr std::int64_t kIdleCharacters = 2;
 constexpr std::size_t kLongestText = 1024;
 constexpr HostDuration kSecond = std::chrono::seconds(1);
@@ -23,24 +24,6 @@ template <class Value>
 void require(bool valid, const std::string& line, const char* name, const Value& value, const char* range) {
   if (valid) return;
   throw std::invalid_argument(fmt::format("line {}: {} is {}, allowed is {}", line, name, value, range));
-}
-
-// Level a talker gives to the line in bit `bit` of its character: start bit, data from the least significant
-// bit on, and high before and after.
-bool high(char value, std::int64_t bit) {
-  if (bit == 0) return false;
-  if (bit < 0 || bit > kDataBits) return true;
-  return (static_cast<unsigned char>(value) >> (bit - 1) & 1U) != 0;
-}
-
-// What a receiver locked on `first` reads when `second` starts `offset` bit times later (or earlier, if
-// negative).
-char overlay(char first, char second, std::int64_t offset) {
-  auto read = static_cast<unsigned char>(first);
-  for (int bit = 1; bit <= kDataBits; ++bit) {
-    if (!high(second, bit - offset)) read = static_cast<unsigned char>(read & ~(1U << (bit - 1)));
-  }
-  return static_cast<char>(read);
 }
 
 }  // namespace

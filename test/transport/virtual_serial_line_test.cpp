@@ -99,8 +99,8 @@ TEST_F(VirtualSerialLineTest, TheHostIsWokenAtACarriageReturnOrAnIdleLine) {
   EXPECT_EQ(line.next_event(), kNever);
 }
 
-// 'U' is 0x55 and on the line, from the start bit on, 0 1010 1010 11; half a turn of that pattern later every
-// bit falls on its opposite, so the line is low all the way until the first one stops.
+// 'U' is 0x55 and on the line, from the start bit on, 0 1010 1010 11; one bit later every bit
+// falls on its opposite, so the line is low all the way until the first one stops.
 TEST_F(VirtualSerialLineTest, TwoTalkersSpoilEachOther) {
   line.send(port_a, "U", at_us(0));
   line.send(port_b, "U", at_us(100));
