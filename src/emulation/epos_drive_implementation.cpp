@@ -1,7 +1,6 @@
 #include "epos_drive_implementation.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace interpolated_motion::emulation {
 namespace {
@@ -17,8 +16,6 @@ constexpr std::size_t kResponses = 32;
 constexpr std::int64_t kInvalidCobId = std::int64_t{1} << 31;
 constexpr std::uint16_t kPdoLengthError = 0x8210;
 
-double sample_period_ns(double ppm) { return 1e6 / (1.0 + ppm * 1e-6); }
-
 const EposParameters& validated(const EposParameters& parameters) {
   validate(parameters);
   return parameters;
@@ -33,9 +30,7 @@ EposDrive::Implementation::Implementation(transport::VirtualCanBus& bus, transpo
       port_(bus.add_port(listener)),
       now_(now),
       power_event_(now),
-      epoch_(now),
-      period_ns_(sample_period_ns(parameters.clock_error_ppm)),
-      next_sample_(now),
+      clock_(parameters_, now),
       objects_(parameters_),
       sdo_(*this),
       pdo_(objects_, parameters_, *this),
@@ -63,9 +58,7 @@ void EposDrive::Implementation::power_up(HostTime now) {
 void EposDrive::Implementation::finish_boot(HostTime now) {
   power_ = Power::On;
   milliseconds_ = 0;
-  epoch_ = now + parameters_.tick_phase;
-  samples_since_epoch_ = 0;
-  schedule_sample();
+  clock_.restart(now + parameters_.tick_phase);
   device_.reset();
   errors_ = ErrorStore();
   ip_.reset();
@@ -107,20 +100,12 @@ void EposDrive::Implementation::silence(bool silent, HostTime now) {
   update_connection(now);
 }
 
-void EposDrive::Implementation::set_clock_error(double ppm) {
-  period_ns_ = sample_period_ns(ppm);
-  epoch_ = next_sample_;
-  samples_since_epoch_ = 0;
-}
-
-void EposDrive::Implementation::schedule_sample() {
-  const double elapsed = static_cast<double>(samples_since_epoch_) * period_ns_;
-  next_sample_ = epoch_ + HostDuration(std::llround(elapsed));
-}
+void EposDrive::Implementation::set_clock_error(double ppm) { clock_.set_error(ppm); }
 
 HostTime EposDrive::Implementation::next_event() const {
   if (power_ != Power::On) return power_event_;
-  return responses_.empty() ? next_sample_ : std::min(next_sample_, responses_.front().due);
+  const HostTime sample = clock_.next_sample();
+  return responses_.empty() ? sample : std::min(sample, responses_.front().due);
 }
 
 void EposDrive::Implementation::process(HostTime now) {
@@ -132,10 +117,9 @@ void EposDrive::Implementation::process(HostTime now) {
     transmit(responses_.front().frame);
     responses_.pop_front();
   }
-  while (power_ == Power::On && next_sample_ <= now) {
-    now_ = next_sample_;
-    ++samples_since_epoch_;
-    schedule_sample();
+  while (power_ == Power::On && clock_.next_sample() <= now) {
+    now_ = clock_.next_sample();
+    clock_.take_sample();
     sample();
   }
 }
@@ -191,12 +175,17 @@ void EposDrive::Implementation::on_frame(const canopen::Frame& frame, HostTime t
   if (frame.id > kErrorControl && frame.id <= kErrorControl + 127) return on_error_control(frame);
   if (!nmt_.operational()) return;
   if (frame.id == kSync) {
-    if (!frame.remote) pdo_.on_sync();
+    if (!frame.remote) on_sync(time);
   } else if (frame.remote) {
     pdo_.on_remote_request(frame);
   } else {
     pdo_.on_frame(frame);
   }
+}
+
+void EposDrive::Implementation::on_sync(HostTime time) {
+  clock_.latch(time);
+  pdo_.on_sync();
 }
 
 void EposDrive::Implementation::on_nmt(const canopen::Frame& frame) {
@@ -207,7 +196,7 @@ void EposDrive::Implementation::on_nmt(const canopen::Frame& frame) {
       break;
     case NmtAction::Entered:
       sdo_.reset();
-      if (nmt_.operational()) pdo_.start();
+      if (nmt_.operational()) enter_operational();
       break;
     case NmtAction::ResetNode:
       power_up(now_);
@@ -217,6 +206,11 @@ void EposDrive::Implementation::on_nmt(const canopen::Frame& frame) {
       break;
   }
   publish_status();
+}
+
+void EposDrive::Implementation::enter_operational() {
+  clock_.forget_reference();
+  pdo_.start();
 }
 
 bool EposDrive::Implementation::sdo_allowed() const {

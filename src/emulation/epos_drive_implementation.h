@@ -7,6 +7,7 @@
 #include "interpolated_motion_driver/emulation/epos_drive.h"
 #include "interpolated_motion_driver/emulation/error_store.h"
 #include "interpolated_motion_driver/emulation/interpolated_position_mode.h"
+#include "interpolated_motion_driver/emulation/motion_clock.h"
 #include "interpolated_motion_driver/emulation/nmt_slave.h"
 #include "interpolated_motion_driver/emulation/object_dictionary.h"
 #include "interpolated_motion_driver/emulation/pdo_engine.h"
@@ -60,10 +61,11 @@ class EposDrive::Implementation : public SdoObjects, public PdoOwner {
   void power_up(HostTime now);
   void finish_boot(HostTime now);
   void update_connection(HostTime now);
-  void schedule_sample();
   bool transmit(const canopen::Frame& frame);
   void send_state(std::uint8_t state);
   void send_emergency_bytes(const EmergencyBytes& bytes);
+  void on_sync(HostTime time);
+  void enter_operational();
   void on_nmt(const canopen::Frame& frame);
   void reset_communication();
   void on_sdo(const canopen::Frame& frame);
@@ -117,10 +119,7 @@ class EposDrive::Implementation : public SdoObjects, public PdoOwner {
   Power power_ = Power::Off;
   HostTime power_event_;
   bool silent_ = false;
-  HostTime epoch_;
-  std::int64_t samples_since_epoch_ = 0;
-  double period_ns_;
-  HostTime next_sample_;
+  MotionClock clock_;
   std::int64_t milliseconds_ = 0;
 
   ObjectDictionary objects_;

@@ -174,6 +174,8 @@ void EposDrive::Implementation::communication_written(std::uint16_t index, std::
       if (subindex == 5) return restore_cob_ids();
       stored_.reset();
       break;
+    case 0x1013:
+      return clock_.take_time_stamp(static_cast<std::uint32_t>(value));
     case 0x1016:
       return nmt_.set_consumer(subindex - 1, static_cast<std::uint32_t>(value));
     case 0x1017:

@@ -27,6 +27,8 @@ void validate(const EposParameters& p) {
           "1..32 characters");
   require(p.clock_error_ppm >= -kMaximumClockError && p.clock_error_ppm <= kMaximumClockError, p,
           "clock_error_ppm", p.clock_error_ppm, "-100000..100000");
+  require(p.clock_slew > HostDuration::zero() && p.clock_slew <= kSample / 2, p, "clock_slew",
+          p.clock_slew.count(), "1..500000 ns");
   require(p.tick_phase >= HostDuration::zero() && p.tick_phase < kSample, p, "tick_phase",
           p.tick_phase.count(), "0..999999 ns");
   require(p.boot_time >= kSample, p, "boot_time", p.boot_time.count(), "1000000 ns or more");

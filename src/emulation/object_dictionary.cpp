@@ -114,6 +114,7 @@ bool ObjectDictionary::mappable(Slot slot, bool into_receive_pdo) const {
   if (entry.index == 0x60C4 && entry.subindex == 6) {
     return parameters_.buffer_clear_pdo_mappable && into_receive_pdo;
   }
+  if (entry.index == 0x1013 && !parameters_.time_stamp_pdo_mappable) return false;
   if (!entry.mappable) return false;
   return into_receive_pdo ? entry.writable() : entry.readable();
 }

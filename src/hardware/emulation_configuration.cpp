@@ -36,6 +36,9 @@ void parse_unknowns(ParameterReader& reader, EposParameters& drive) {
       reader.boolean("limits_scale_with_notation", drive.limits_scale_with_notation);
   drive.limit_ranges_scale_with_notation =
       reader.boolean("limit_ranges_scale_with_notation", drive.limit_ranges_scale_with_notation);
+  drive.clock_discipline = reader.boolean("clock_discipline", drive.clock_discipline);
+  drive.clock_slew = host_duration(reader.number("clock_slew", seconds(drive.clock_slew), 1e-9, 5e-4));
+  drive.time_stamp_pdo_mappable = reader.boolean("time_stamp_pdo_mappable", drive.time_stamp_pdo_mappable);
   drive.free_records_pdo_mappable =
       reader.boolean("free_records_pdo_mappable", drive.free_records_pdo_mappable);
   drive.record_release = reader.choice(

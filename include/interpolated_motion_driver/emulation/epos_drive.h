@@ -77,7 +77,8 @@ class EposDrive : public transport::CanListener {
   /// While silent the drive neither hears nor says anything, but goes on moving.
   void silence(bool silent, HostTime now);
 
-  /// Changes the error of the drive's crystal from its next sample on, ppm.
+  /// Changes the error of the drive's crystal from its next sample on, ppm. (Its motion clock is that crystal
+  /// corrected by SYNC and time stamps, when there are any.)
   void set_clock_error(double ppm);
 
   /// Time of the drive's next own action (sample, response), kNever when it is off for good.

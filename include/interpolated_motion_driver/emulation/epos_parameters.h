@@ -94,7 +94,10 @@ struct EposParameters {
   std::uint32_t serial_number = 1;             ///< 0x1018:4
   std::string device_name = "EPOS2";           ///< 0x1008, at most 32 characters
 
-  double clock_error_ppm = 0.0;                 ///< > 0: the drive's crystal is fast; |ppm| <= 100000
+  double clock_error_ppm = 0.0;  ///< > 0: the drive's crystal is fast; |ppm| <= 100000
+  bool clock_discipline = true;  ///< the motion clock follows SYNC and 0x1013
+  HostDuration clock_slew = std::chrono::microseconds(1);  ///< most by which a sample is made shorter or
+                                                           ///< longer for that, 1 ns .. 0.5 ms
   HostDuration tick_phase{0};                   ///< of the drive's samples against its power-up, 0 .. 1 ms
   HostDuration boot_time = host_duration(0.2);  ///< from power-up or reset to the boot-up message; >= 1 ms
   HostDuration sdo_response_time = host_duration(0.0003);  ///< from request to response; >= 0
@@ -125,6 +128,7 @@ struct EposParameters {
   bool limits_scale_with_notation = true;  ///< 0x6081, 0x607F, 0x606B and 0x606C are in the unit of 0x608B
 
   bool free_records_pdo_mappable = true;  ///< 0x60C4:2; Doc: yes, EDS: no, real robots map it
+  bool time_stamp_pdo_mappable = true;    ///< 0x1013; Doc of EPOS2 and EDS: yes
   bool buffer_clear_pdo_mappable = true;  ///< 0x60C4:6; Doc: no, EDS: yes
 
   RecordPolicy records_while_access_disabled = RecordPolicy::Abort;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+
+#include "interpolated_motion_driver/emulation/crystal.h"
+#include "interpolated_motion_driver/emulation/epos_parameters.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::emulation {
+
+/// The clock that makes a drive's 1 ms samples, and its discipline by the master ("EPOS2 Interpolated
+/// Position Mode", 2008: SYNC and High Resolution Time Stamp): the drive latches the clock at SYNC, the
+/// master sends the time of that SYNC in 0x1013, and the drive corrects its clock by the difference.
+///
+/// How is not documented. Here the first time stamp sets the reference, so that only what both clocks do from
+/// then on counts; a difference is made up at the samples, each shorter or longer by at most `clock_slew`; a
+/// latched value serves for one time stamp, so a time stamp whose SYNC did not arrive is ignored.
+class MotionClock {
+ public:
+  MotionClock(const EposParameters& parameters, HostTime now);
+
+  /// Power-up: the first sample comes at `first`.
+  void restart(HostTime first);
+  /// The crystal's error from the next sample on, ppm.
+  void set_error(double ppm) { crystal_.set_error(ppm, next_sample_); }
+
+  /// When the next sample is due.
+  HostTime next_sample() const { return next_sample_; }
+  /// The sample has come: makes up for a part of the difference and goes on to the next one.
+  void take_sample();
+
+  /// The next time stamp sets the reference.
+  void forget_reference();
+  /// SYNC at `when`.
+  void latch(HostTime when);
+  /// 0x1013 has been written: the time of the last SYNC on the master's clock, us, modulo 2^32.
+  void take_time_stamp(std::uint32_t microseconds);
+
+ private:
+  std::uint32_t latched_microseconds() const;
+  void schedule();
+
+  const EposParameters& parameters_;
+  Crystal crystal_;
+  HostTime next_sample_;
+  std::int64_t samples_ = 0;  ///< taken since power-up
+
+  // The motion clock is the count of the crystal plus the correction made so far plus the reference, ns.
+  double correction_ = 0.0;
+  double wanted_correction_ = 0.0;
+  double reference_ = 0.0;
+  bool has_reference_ = false;
+
+  bool latched_ = false;
+  double latched_count_ = 0.0;
+  double latched_correction_ = 0.0;
+};
+
+}  // namespace interpolated_motion::emulation
