@@ -29,6 +29,7 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   check_period(bus, "heartbeat_period", p.heartbeat_period);
   check_period(bus, "heartbeat_timeout", p.heartbeat_timeout);
   check_period(bus, "sync_period", p.sync_period);
+  check_range(bus, "time_stamp_period", p.time_stamp_period, 0, 1000);
   check_range<std::uint32_t>(bus, "bitrate", p.bitrate, 10'000, 1'000'000);
   check_range(bus, "max_bulk_load", p.max_bulk_load, 0.01, 1.0);
   check_range(bus, "bulk_burst", p.bulk_burst, 1, 64);
@@ -106,7 +107,7 @@ bool Master::send_nmt(NmtCommand command, std::uint8_t node) {
 
 bool Master::request_sync(HostTime now) {
   advance(now);
-  return queue_control(sync_frame());
+  return queue_control(sync_frame(), Kind::RequestedSync);
 }
 
 bool Master::queue_control(const Frame& frame, Kind kind, std::uint8_t node) {
@@ -133,6 +134,10 @@ const Frame* Master::peek_outgoing(HostTime now) {
   advance(now);
   collect_sdo();
   peeked_ = Peeked::None;
+  if (time_stamp_) {
+    peeked_ = Peeked::TimeStamp;
+    return &*time_stamp_;
+  }
   if (!control_.empty()) {
     peeked_ = Peeked::Control;
     return &control_.front().frame;
@@ -145,7 +150,15 @@ const Frame* Master::peek_outgoing(HostTime now) {
 
 void Master::pop_outgoing(HostTime now) {
   advance(now);
-  if (peeked_ == Peeked::Control) release_control();
+  if (peeked_ == Peeked::TimeStamp) {
+    time_stamp_.reset();
+    ++time_stamps_;
+  }
+  if (peeked_ == Peeked::Control) {
+    const Kind kind = control_.front().kind;
+    if (kind == Kind::PeriodicSync || kind == Kind::RequestedSync) ++syncs_since_confirmation_;
+    release_control();
+  }
   if (peeked_ == Peeked::Bulk) {
     in_order_[bulk_turn_]->records_.pop();
     bulk_turn_ = (bulk_turn_ + 1) % in_order_.size();
@@ -166,6 +179,7 @@ void Master::clear_outgoing() {
   collect_sdo();
   while (!control_.empty()) release_control();
   for (NodeLink* node : in_order_) node->clear_records();
+  time_stamp_.reset();
   peeked_ = Peeked::None;
 }
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "interpolated_motion_driver/protocol/canopen/frame_text.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 
@@ -39,15 +41,24 @@ void Master::on_own_frame(const ReceivedFrame& received) {
   const Frame& frame = received.frame;
   if (frame.extended || frame.remote) return;
   const CobIdMeaning meaning = classify(frame.id);
-  if (meaning.service == Service::Sync) {
-    last_sync_time_ = received.time;
-    ++syncs_confirmed_;
-  }
+  if (meaning.service == Service::Sync) confirm_sync(received.time);
   if (meaning.service == Service::Rpdo && nodes_[meaning.node]) {
     NodeLink::Confirmed& confirmed = nodes_[meaning.node]->confirmed_[NodeLink::slot(meaning.pdo)];
     confirmed.last = received.time;
     ++confirmed.count;
   }
+}
+
+/// With another SYNC given to the transport meanwhile, a drive may latch that one before the time stamp
+/// comes.
+void Master::confirm_sync(HostTime time) {
+  last_sync_time_ = time;
+  ++syncs_confirmed_;
+  const bool is_last = std::exchange(syncs_since_confirmation_, 0) == 1;
+  time_stamp_.reset();
+  const int period = parameters_.time_stamp_period;
+  if (period == 0 || syncs_confirmed_ % static_cast<std::uint64_t>(period) != 0) return;
+  if (is_last) time_stamp_ = time_stamp_frame(parameters_.own_node_id, time);
 }
 
 void Master::on_foreign_frame(const ReceivedFrame& received) {

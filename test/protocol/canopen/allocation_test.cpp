@@ -10,6 +10,7 @@ namespace {
 TEST(MasterAllocation, NoneForAFrame) {
   MasterParameters parameters;
   parameters.sync_period = std::chrono::milliseconds(10);
+  parameters.time_stamp_period = 1;
   parameters.heartbeat_period = std::chrono::milliseconds(10);
   parameters.heartbeat_timeout = std::chrono::milliseconds(50);
   Master master("can0", parameters);
@@ -23,6 +24,7 @@ TEST(MasterAllocation, NoneForAFrame) {
   const std::size_t before = interpolated_motion::test::allocation_count();
   for (int ms = 0; ms < 1000; ++ms) {
     const HostTime now = at_ms(ms);
+    master.on_frame({make_frame(0x080, {}), now, true});
     master.on_frame({make_frame(0x183, {0x37, 0x13}), now, false});
     master.on_frame({make_frame(0x083, {0x0C, 0xFF, 0x20, 0, 0, 0, 0, 0}), now, false});
     master.on_frame({make_frame(0x703, {0x05}), now, false});
@@ -42,6 +44,7 @@ TEST(MasterAllocation, NoneForAFrame) {
   EXPECT_EQ(pdos, 1000);
   EXPECT_EQ(transfers, 999);
   EXPECT_GT(sent, 3000);
+  EXPECT_GT(master.time_stamps_sent(), 90u);
 }
 
 }  // namespace

@@ -37,6 +37,9 @@ inline constexpr std::uint32_t rpdo(int n, std::uint8_t node) {
 }
 inline constexpr std::uint32_t sdo_response(std::uint8_t node) { return 0x580u + node; }
 inline constexpr std::uint32_t sdo_request(std::uint8_t node) { return 0x600u + node; }
+/// High resolution time stamps of the master with node id `host`, one identifier for all drives of a bus:
+/// that of the RPDO 3 the master itself would have. Node ids are unique, so no drive's PDO has it.
+inline constexpr std::uint32_t time_stamp(std::uint8_t host) { return rpdo(3, host); }
 inline constexpr std::uint32_t heartbeat(std::uint8_t node) { return 0x700u + node; }
 
 }  // namespace cob_id

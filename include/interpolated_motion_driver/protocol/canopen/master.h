@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,14 @@ struct MasterParameters {
   HostDuration heartbeat_period = HostDuration::zero();   ///< of this host; zero: none is sent
   HostDuration heartbeat_timeout = HostDuration::zero();  ///< of the nodes; zero: not monitored
   HostDuration sync_period = HostDuration::zero();        ///< zero: SYNC on request only
-  std::uint32_t bitrate = 1'000'000;                      ///< bit/s, 10000..1000000
-  double max_bulk_load = 0.6;                             ///< share of the bus for bulk frames, 0.01..1
-  int bulk_burst = 4;                                     ///< bulk frames that may go back to back, 1..64
-  SdoParameters sdo;                                      ///< of the SDO clients
-  std::size_t control_capacity = 256;                     ///< frames, 16..65536
-  std::size_t bulk_capacity = 128;                        ///< frames of each node, 1..65536
-  std::size_t emcy_capacity = 16;                         ///< messages of each node, 1..65536
+  int time_stamp_period = 0;  ///< every so many SYNCs are followed by their time stamp, 0..1000; 0: none
+  std::uint32_t bitrate = 1'000'000;   ///< bit/s, 10000..1000000
+  double max_bulk_load = 0.6;          ///< share of the bus for bulk frames, 0.01..1
+  int bulk_burst = 4;                  ///< bulk frames that may go back to back, 1..64
+  SdoParameters sdo;                   ///< of the SDO clients
+  std::size_t control_capacity = 256;  ///< frames, 16..65536
+  std::size_t bulk_capacity = 128;     ///< frames of each node, 1..65536
+  std::size_t emcy_capacity = 16;      ///< messages of each node, 1..65536
 };
 
 /// Why a received frame could not be used.
@@ -54,6 +56,10 @@ struct UnexpectedFrames {
 /// The CANopen master of one bus, sans-IO: received frames go in with `on_frame`, frames to send come out of
 /// `peek_outgoing`/`pop_outgoing`, time is given. After construction and `add_node` nothing is allocated per
 /// frame (SDO transfers of more than 8 bytes excepted).
+///
+/// With `time_stamp_period` the drives are told when SYNC was on the bus, so that they can set their clocks
+/// by it (object 0x1013). A time stamp goes before everything else that waits, since a drive takes it for
+/// that of the last SYNC; it is left out when the next SYNC is under way already.
 ///
 /// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
 /// made. Bulk frames
@@ -108,6 +114,9 @@ class Master {
   HostTime last_sync_time() const { return last_sync_time_; }
   std::uint64_t syncs_confirmed() const { return syncs_confirmed_; }
 
+  /// Time stamps given to the transport.
+  std::uint64_t time_stamps_sent() const { return time_stamps_; }
+
   /// Control frames not yet given to the transport.
   std::size_t pending_control() const { return control_.size(); }
   /// Control frames refused because the queue was full.
@@ -125,13 +134,13 @@ class Master {
 
  private:
   friend class NodeLink;
-  enum class Kind : std::uint8_t { Other, PeriodicSync, Heartbeat, Sdo };
+  enum class Kind : std::uint8_t { Other, PeriodicSync, RequestedSync, Heartbeat, Sdo };
   struct ControlFrame {
     Frame frame;
     Kind kind = Kind::Other;
     std::uint8_t node = 0;
   };
-  enum class Peeked : std::uint8_t { None, Control, Bulk };
+  enum class Peeked : std::uint8_t { None, TimeStamp, Control, Bulk };
 
   bool queue_control(const Frame& frame, Kind kind = Kind::Other, std::uint8_t node = 0);
   bool push_control(const ControlFrame& frame);
@@ -139,6 +148,7 @@ class Master {
   void advance(HostTime now);
   NodeLink* next_bulk_node();
   void release_control();
+  void confirm_sync(HostTime time);
 
   void on_own_frame(const ReceivedFrame& received);
   void on_foreign_frame(const ReceivedFrame& received);
@@ -165,6 +175,9 @@ class Master {
   SyncProducer sync_;
   HostTime last_sync_time_{};
   std::uint64_t syncs_confirmed_ = 0;
+  int syncs_since_confirmation_ = 0;  ///< given to the transport since the last confirmation of one
+  std::optional<Frame> time_stamp_;   ///< of the last SYNC, waits to be sent
+  std::uint64_t time_stamps_ = 0;
   BusLoad load_;
   std::array<UnexpectedFrames, kUnexpectedFrameCauses> unexpected_{};
 };

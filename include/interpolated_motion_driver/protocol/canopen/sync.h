@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -26,5 +28,13 @@ class SyncProducer {
   HostDuration period_;
   HostTime next_ = kNever;
 };
+
+/// `time` as a high resolution time stamp carries it: us of the host's clock, modulo 2^32 (CiA 301, object
+/// 1013h); it begins anew every 71 min 35 s.
+std::uint32_t time_stamp_of(HostTime time);
+
+/// The time stamp of a SYNC that ended on the bus at `sync`, for the drives' object 0x1013 (mapped alone,
+/// 4 bytes); `host` is the master's node id.
+Frame time_stamp_frame(std::uint8_t host, HostTime sync);
 
 }  // namespace interpolated_motion::canopen
