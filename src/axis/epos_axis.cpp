@@ -425,9 +425,15 @@ void EposAxis::enter(Phase phase, HostTime now) {
 std::string EposAxis::who() const { return fmt::format("Joint {} ({})", parameters_.joint, node_.name()); }
 
 std::string EposAxis::description() const {
-  return fmt::format("{}: {}, serial number {}, velocity unit {} rpm, FIFO of {} records", who(),
+  return fmt::format("{}: {}, serial number {}, velocity unit {} rpm, FIFO of {} records, {}", who(),
                      cia402::describe_identity(facts_.identity), facts_.identity.serial,
-                     facts_.velocity_unit_rpm(), facts_.capacity);
+                     facts_.velocity_unit_rpm(), facts_.capacity, clock_text());
+}
+
+std::string EposAxis::clock_text() const {
+  if (facts_.takes_time_stamps) return "clock set by the host's (0x1013)";
+  if (!parameters_.clock_discipline) return "clock on its own (clock_discipline is false)";
+  return "clock on its own, it takes no time stamps: " + facts_.time_stamp_refusal;
 }
 
 void EposAxis::fail(const std::string& reason, HostTime now) {

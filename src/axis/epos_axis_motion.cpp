@@ -144,7 +144,8 @@ void EposAxis::arm(HostTime now) {
 
 /// The drive starts at its first sample after SYNC.
 void EposAxis::start_clock() {
-  if (!clock_.running() && applied()) clock_.start(master_.last_sync_time() + host_duration(kHalfSample));
+  if (clock_.running() || !applied()) return;
+  clock_.start(master_.last_sync_time() + host_duration(kHalfSample), facts_.takes_time_stamps);
 }
 
 void EposAxis::poll_armed(HostTime now) {
@@ -185,7 +186,9 @@ void EposAxis::watch_motion(HostTime now) {
 }
 
 void EposAxis::end_of_motion(HostTime now) {
-  if (!feed_.all_sent() || clock_.most_elapsed(telemetry_.status_time) < feed_.duration()) {
+  const auto too_early = [this] { return clock_.most_elapsed(telemetry_.status_time) < feed_.duration(); };
+  if (clock_.follows_host() && too_early()) clock_.stop_following();
+  if (!feed_.all_sent() || too_early()) {
     return fail_in_motion(
         fmt::format("the drive left the interpolation {:.3f} s after the start instead of {:.3f} s; FIFO: {}",
                     clock_.elapsed(telemetry_.status_time), feed_.duration(),
@@ -239,23 +242,30 @@ void EposAxis::poll_fill_by_sdo(HostTime now) {
 // What is in the FIFO is what was sent and not yet played. How far the drive has played is known within
 // bounds; a fill outside of them means that a record got lost (or one came twice): the drive would cut a
 // corner there. The FIFO is long, so it is stopped before it gets there.
+//
+// A drive that takes the host's time stamps may yet not set its clock by them: the first fill that
+// contradicts host time ends that assumption, and what the fills have told about its crystal decides.
 void EposAxis::compare_fill(std::size_t used, HostTime when, HostTime now) {
   learn_release(used, when);
-  const std::size_t sent = feed_.sent();
-  const std::size_t most_played = feed_.played(clock_.most_elapsed(when)) + early_release_.value_or(1);
-  const std::size_t least_played = feed_.played(clock_.least_elapsed(when)) + early_release_.value_or(0);
-  const std::size_t least = sent - std::min(sent, most_played);
-  const std::size_t most = sent - std::min(sent, least_played);
   if (!feed_.all_sent()) minimum_fill_ = std::min(minimum_fill_, static_cast<std::uint32_t>(used));
-  if (used >= least && used <= most) {
+  if (clock_.follows_host() && !expected_fill(when).contains(used)) clock_.stop_following();
+  const FillRange expected = expected_fill(when);
+  if (expected.contains(used)) {
     fill_mismatches_ = 0;
     return learn_clock(used, when);
   }
   if (++fill_mismatches_ < kFillMismatches) return;
   ++refused_writes_;
   fail_in_motion(fmt::format("its FIFO holds {} records where {}..{} must be: a record was lost on the bus",
-                             used, least, most),
+                             used, expected.least, expected.most),
                  now);
+}
+
+EposAxis::FillRange EposAxis::expected_fill(HostTime when) const {
+  const std::size_t sent = feed_.sent();
+  const std::size_t most_played = feed_.played(clock_.most_elapsed(when)) + early_release_.value_or(1);
+  const std::size_t least_played = feed_.played(clock_.least_elapsed(when)) + early_release_.value_or(0);
+  return {sent - std::min(sent, most_played), sent - std::min(sent, least_played)};
 }
 
 /// While the drive is surely on its way to the first record, the records missing from the FIFO are those it

@@ -266,11 +266,79 @@ Steps buffer_pdo(std::uint8_t node, SdoSequence& sequence, EposFacts& facts) {
   return steps;
 }
 
-Steps pdos(std::uint8_t node, SdoSequence& sequence, EposFacts& facts) {
+constexpr canopen::ObjectAddress kTimeStampCobId{0x1400 + epos_pdo::kTimeStampRpdo - 1, 1};
+constexpr canopen::ObjectAddress kTimeStampMapping{0x1600 + epos_pdo::kTimeStampRpdo - 1, 1};
+
+struct TimeStampSetup {
+  std::uint8_t node;
+  std::vector<canopen::SdoWrite> writes;
+  SdoSequence& sequence;
+  EposFacts& facts;
+};
+
+/// The clock of a drive that takes no time stamps is estimated: that is no reason to refuse the drive.
+Failure without_time_stamps(const TimeStampSetup& setup, const std::string& reason) {
+  setup.facts.time_stamp_refusal = reason;
+  setup.sequence.insert(
+      writes({canopen::pdo_disable(canopen::PdoDirection::Rpdo, epos_pdo::kTimeStampRpdo, setup.node)}));
+  return std::nullopt;
+}
+
+/// Goes on with `next` after a success, without time stamps after an abort by the drive.
+template <class Next>
+SdoSequence::Check unless_refused(TimeStampSetup setup, Next next) {
+  return [setup = std::move(setup), next](const SdoResult& r) -> Failure {
+    if (!r.ok) return r.aborted_by_drive ? without_time_stamps(setup, r.text()) : r.text();
+    return next(setup, r);
+  };
+}
+
+/// What the drive says it has mapped counts, not only that it took it.
+Step verify_time_stamps(const TimeStampSetup& setup) {
+  const auto verify = [](const TimeStampSetup& s, const SdoResult& r) -> Failure {
+    s.facts.takes_time_stamps = r.as_u32() == cia402::pdo_entry::kTimeStamp.value();
+    if (s.facts.takes_time_stamps) return std::nullopt;
+    return without_time_stamps(s, fmt::format("0x{:08X} is mapped in the place of 0x1013", r.as_u32()));
+  };
+  return SdoSequence::read(kTimeStampMapping, unless_refused(setup, verify));
+}
+
+Step time_stamp_write(const TimeStampSetup& setup, std::size_t index) {
+  const auto go_on = [index](const TimeStampSetup& s, const SdoResult&) -> Failure {
+    const bool more = index + 1 < s.writes.size();
+    s.sequence.insert({more ? time_stamp_write(s, index + 1) : verify_time_stamps(s)});
+    return std::nullopt;
+  };
+  return SdoSequence::write(setup.writes[index], unless_refused(setup, go_on));
+}
+
+/// Bits 0 to 29 of a COB-ID must not change while its PDO is valid (CiA 301, 1400h), and which one the drive
+/// has is left from an earlier life of the host: it is invalidated as it is.
+Step time_stamp_setup(const TimeStampSetup& setup) {
+  const auto invalidate = [](const TimeStampSetup& s, const SdoResult& r) -> Failure {
+    TimeStampSetup longer = s;
+    const auto off = sdo_write<std::uint32_t>(kTimeStampCobId, r.as_u32() | canopen::kPdoInvalid);
+    longer.writes.insert(longer.writes.begin(), off);
+    s.sequence.insert({time_stamp_write(longer, 0)});
+    return std::nullopt;
+  };
+  return SdoSequence::read(kTimeStampCobId, unless_refused(setup, invalidate));
+}
+
+Steps time_stamps(const EposAxisParameters& parameters, std::uint8_t node, SdoSequence& sequence,
+                  EposFacts& facts) {
+  if (!parameters.clock_discipline) {
+    return writes({canopen::pdo_disable(canopen::PdoDirection::Rpdo, epos_pdo::kTimeStampRpdo, node)});
+  }
+  const auto configuration = epos_pdo::time_stamp_rpdo(parameters.host_node_id);
+  return {time_stamp_setup({node, canopen::pdo_configuration(configuration, node), sequence, facts})};
+}
+
+Steps pdos(const EposAxisParameters& parameters, std::uint8_t node, SdoSequence& sequence, EposFacts& facts) {
   Steps steps = pdo(epos_pdo::record_rpdo(), node);
   append(steps, pdo(epos_pdo::controlword_rpdo(), node));
-  append(steps, writes({canopen::pdo_disable(canopen::PdoDirection::Rpdo, 3, node),
-                        canopen::pdo_disable(canopen::PdoDirection::Rpdo, 4, node)}));
+  append(steps, time_stamps(parameters, node, sequence, facts));
+  append(steps, writes({canopen::pdo_disable(canopen::PdoDirection::Rpdo, 4, node)}));
   append(steps, pdo(epos_pdo::status_tpdo(), node));
   append(steps, pdo(epos_pdo::motion_tpdo(), node));
   append(steps, pdo(epos_pdo::demand_tpdo(), node));
@@ -295,7 +363,7 @@ std::vector<SdoSequence::Step> bring_up_steps(const EposAxisParameters& paramete
   append(steps, try_velocity_notation({parameters, sequence, facts}, kFinestVelocityNotation));
   append(steps, motion_limits(parameters, facts));
   append(steps, position_limits(parameters));
-  append(steps, pdos(node, sequence, facts));
+  append(steps, pdos(parameters, node, sequence, facts));
   return steps;
 }
 

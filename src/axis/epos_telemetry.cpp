@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/axis/epos_telemetry.h"
 
+#include "interpolated_motion_driver/protocol/canopen/cob_id.h"
 #include "interpolated_motion_driver/protocol/canopen/object.h"
 #include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
 
@@ -37,6 +38,12 @@ canopen::PdoConfiguration record_rpdo() {
 
 canopen::PdoConfiguration controlword_rpdo() {
   return pdo(PdoDirection::Rpdo, kControlwordRpdo, {entry::kControlword}, canopen::kSynchronous);
+}
+
+canopen::PdoConfiguration time_stamp_rpdo(std::uint8_t host_node_id) {
+  auto configuration = pdo(PdoDirection::Rpdo, kTimeStampRpdo, {entry::kTimeStamp}, canopen::kEventDriven);
+  configuration.cob_id = canopen::cob_id::time_stamp(host_node_id);
+  return configuration;
 }
 
 canopen::PdoConfiguration status_tpdo() {

@@ -6,14 +6,17 @@ namespace interpolated_motion::axis {
 
 PlaybackClock::PlaybackClock(double max_error, double sample) : max_error_(max_error), sample_(sample) {}
 
-void PlaybackClock::start(HostTime start) {
+void PlaybackClock::start(HostTime start, bool follows_host) {
   running_ = true;
+  follows_host_ = follows_host;
   start_ = start;
   lowest_rate_ = 1.0 - max_error_;
   highest_rate_ = 1.0 + max_error_;
 }
 
-double PlaybackClock::rate() const { return std::clamp(1.0, lowest_rate_, highest_rate_); }
+double PlaybackClock::rate() const {
+  return follows_host_ ? 1.0 : std::clamp(1.0, lowest_rate_, highest_rate_);
+}
 
 double PlaybackClock::elapsed(HostTime when) const {
   if (!running_ || when <= start_) return 0.0;
@@ -22,12 +25,14 @@ double PlaybackClock::elapsed(HostTime when) const {
 
 double PlaybackClock::least_elapsed(HostTime when) const {
   if (!running_ || when <= start_) return 0.0;
-  return std::max(0.0, seconds(when - start_) * lowest_rate_ - sample_);
+  const double host = seconds(when - start_);
+  return std::max(0.0, follows_host_ ? host - kFollowing : host * lowest_rate_ - sample_);
 }
 
 double PlaybackClock::most_elapsed(HostTime when) const {
   if (!running_ || when <= start_) return 0.0;
-  return seconds(when - start_) * highest_rate_ + sample_;
+  const double host = seconds(when - start_);
+  return follows_host_ ? host + kFollowing : host * highest_rate_ + sample_;
 }
 
 HostTime PlaybackClock::host_time(double drive_seconds) const {

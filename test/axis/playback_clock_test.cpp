@@ -58,5 +58,38 @@ TEST(PlaybackClock, FollowsACrystalThatChanges) {
   EXPECT_LT(clock.elapsed(at(200.0)), 199.992);
 }
 
+TEST(PlaybackClock, ADriveThatFollowsTheHostPlaysAtItsRate) {
+  PlaybackClock clock(5e-4, 1e-3);
+  clock.start(at(10.0), true);
+  // Whole milliseconds of a drive whose start was noted half a sample late, seen a sample late.
+  for (int look = 1; look <= 60000; ++look) {
+    const double host = 0.01 * look;
+    const double passed = std::floor((host - 0.0015) / 0.1) * 0.1;
+    clock.observe_at_least(at(10.0 + host), passed);
+    clock.observe_less_than(at(10.0 + host), passed + 0.1);
+    ASSERT_DOUBLE_EQ(clock.elapsed(at(10.0 + host)), seconds(at(10.0 + host) - at(10.0)));
+  }
+  EXPECT_TRUE(clock.follows_host());
+  EXPECT_DOUBLE_EQ(clock.error_ppm(), 0.0);
+  EXPECT_NEAR(clock.least_elapsed(at(610.0)), 600.0 - 0.003, 1e-9) << "not the 300 ms of a crystal";
+  EXPECT_NEAR(clock.most_elapsed(at(610.0)), 600.0 + 0.003, 1e-9);
+  EXPECT_DOUBLE_EQ(clock.least_elapsed(at(10.001)), 0.0);
+}
+
+// What the FIFO has told until then is not lost.
+TEST(PlaybackClock, ADriveThatStopsFollowingIsKnownByWhatWasSeen) {
+  PlaybackClock clock(5e-4, 1e-3);
+  clock.start(at(0.0), true);
+  clock.observe_at_least(at(100.0), 100.010);
+  clock.observe_less_than(at(100.0), 100.012);
+  EXPECT_DOUBLE_EQ(clock.elapsed(at(200.0)), 200.0);
+  clock.stop_following();
+  EXPECT_NEAR(clock.elapsed(at(200.0)), 200.0 * (1.0 + 0.009 / 100.0), 1e-6);
+  EXPECT_NEAR(clock.error_ppm(), 90.0, 1e-6);
+  EXPECT_NEAR(clock.most_elapsed(at(200.0)), 200.0 * (1.0 + 0.013 / 100.0) + 1e-3, 1e-6);
+  clock.start(at(0.0), true);
+  EXPECT_TRUE(clock.follows_host()) << "the next motion begins anew";
+}
+
 }  // namespace
 }  // namespace interpolated_motion::axis

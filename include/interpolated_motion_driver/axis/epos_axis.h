@@ -85,6 +85,13 @@ class EposAxis : public Axis {
     Fault,
   };
 
+  /// Records that can be in the FIFO by what has been sent and how far the drive can have played.
+  struct FillRange {
+    std::size_t least;
+    std::size_t most;
+    bool contains(std::size_t used) const { return used >= least && used <= most; }
+  };
+
   /// A controlword that had no effect within this time is sent again: its frame, or the SYNC behind it, can
   /// get lost.
   static constexpr HostDuration kRepeatCommand = std::chrono::milliseconds(100);
@@ -119,6 +126,7 @@ class EposAxis : public Axis {
   bool is_motion_phase() const { return phase_ == Phase::Armed || phase_ == Phase::Moving; }
   bool must_be_enabled() const;
   std::string who() const;
+  std::string clock_text() const;
   void fail(const std::string& reason, HostTime now);
   void fail_in_motion(const std::string& reason, HostTime now);
   void go_offline(const std::string& reason, HostTime now);
@@ -138,6 +146,7 @@ class EposAxis : public Axis {
   void take_buffer_report(HostTime now);
   void learn_release(std::size_t used, HostTime when);
   void learn_clock(std::size_t used, HostTime when);
+  FillRange expected_fill(HostTime when) const;
   void compare_fill(std::size_t used, HostTime when, HostTime now);
   void poll_fill_by_sdo(HostTime now);
   void end_of_motion(HostTime now);

@@ -16,6 +16,8 @@ struct EposFacts {
   std::uint32_t capacity = cia402::kFifoRecords;  ///< records, 0x60C4:01
   int velocity_notation = 0;                      ///< 0x608B: the drive's velocity unit is 10^notation rpm
   bool free_records_mapped = true;                ///< 0x60C4:02 comes by TPDO3
+  bool takes_time_stamps = false;                 ///< 0x1013 is mapped: its clock follows SYNC
+  std::string time_stamp_refusal;                 ///< why it is not, in the drive's words
   std::uint32_t max_velocity = 0;                 ///< velocity units, as written to 0x607F
   std::uint32_t max_acceleration = 0;             ///< rpm/s, as written to 0x60C5
 

@@ -21,6 +21,7 @@ struct EposAxisParameters {
   double record_bus_time = 0.0;      ///< s of bus per record, as share of what records may fill
 
   std::uint8_t host_node_id = 127;
+  bool clock_discipline = true;  ///< the drive is to set its clock by the master's time stamps (0x1013)
   HostDuration heartbeat_period = std::chrono::milliseconds(100);  ///< of the drive, 0x1017
   HostDuration heartbeat_timeout =
       std::chrono::milliseconds(500);  ///< the drive's patience with the host, 0x1016

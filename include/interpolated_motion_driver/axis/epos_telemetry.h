@@ -12,17 +12,17 @@ namespace interpolated_motion::axis {
 
 /// How the PDOs of an EPOS drive are used.
 ///
-/// | PDO   | content                                        | sent |
-/// |-------|------------------------------------------------|---------------------------------------------------|
-/// | RPDO1 | interpolation data record                      | as the FIFO needs it | | RPDO2 | controlword |
-/// on change; the drive obeys at the next SYNC       | | TPDO1 | buffer status, statusword, mode | on change,
-/// at most every 2 ms                     | | TPDO2 | position, velocity                             | each
-/// SYNC                                         | | TPDO3 | statusword, buffer status, free records        |
-/// each SYNC (free records only if they can be mapped) | | TPDO4 | position demand, following error | each
-/// 10th SYNC                                    |
+/// - RPDO1: interpolation data record, as the FIFO needs it
+/// - RPDO2: controlword, on change; the drive obeys at the next SYNC
+/// - RPDO3: time stamp of SYNC, one frame for all drives of the bus
+/// - TPDO1: buffer status, statusword, mode; on change, at most every 2 ms
+/// - TPDO2: position, velocity; each SYNC
+/// - TPDO3: statusword, buffer status, free records (only if they can be mapped); each SYNC
+/// - TPDO4: position demand, following error; each 10th SYNC
 namespace epos_pdo {
 inline constexpr int kRecordRpdo = 1;
 inline constexpr int kControlwordRpdo = 2;
+inline constexpr int kTimeStampRpdo = 3;
 inline constexpr int kStatusTpdo = 1;
 inline constexpr int kMotionTpdo = 2;
 inline constexpr int kBufferTpdo = 3;
@@ -30,6 +30,8 @@ inline constexpr int kDemandTpdo = 4;
 
 canopen::PdoConfiguration record_rpdo();
 canopen::PdoConfiguration controlword_rpdo();
+/// The time stamp of SYNC, with the identifier that all drives of the bus share.
+canopen::PdoConfiguration time_stamp_rpdo(std::uint8_t host_node_id);
 canopen::PdoConfiguration status_tpdo();
 canopen::PdoConfiguration motion_tpdo();
 canopen::PdoConfiguration buffer_tpdo(bool with_free_records);

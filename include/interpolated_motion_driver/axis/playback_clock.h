@@ -11,13 +11,25 @@ namespace interpolated_motion::axis {
 /// had played at least this much" or "not yet that much"; both bound the rate, and the estimate is the rate
 /// nearest to 1 within the bounds. So the error of the estimate never exceeds the interval between two looks
 /// at the FIFO, however long the motion.
+///
+/// A drive that sets its clock by the host's plays at the host's rate: then the estimate is host time, and
+/// what remains is a deviation of at most `kFollowing`, however long the motion. What the FIFO says still
+/// bounds the rate of the crystal, for the case that the drive stops following.
 class PlaybackClock {
  public:
   /// `max_error`: largest relative error of a drive's crystal, e.g. 5e-4. `sample`: uncertainty of the start,
   /// s.
   explicit PlaybackClock(double max_error = 5e-4, double sample = 1e-3);
 
-  void start(HostTime start);
+  /// Largest deviation of a drive that follows the host, s: start and report are each known to a sample, and
+  /// the rest is for a drive that latches its report late and for time stamps lost on the way.
+  static constexpr double kFollowing = 3e-3;
+
+  /// `follows_host`: the drive sets its clock by the host's.
+  void start(HostTime start, bool follows_host = false);
+  bool follows_host() const { return follows_host_; }
+  /// The drive has turned out not to follow: from now on the estimate is by what has been observed.
+  void stop_following() { follows_host_ = false; }
   bool running() const { return running_; }
   void stop() { running_ = false; }
   HostTime start_time() const { return start_; }
@@ -35,7 +47,7 @@ class PlaybackClock {
   /// At `when` the drive had not yet played `drive_seconds`.
   void observe_less_than(HostTime when, double drive_seconds);
 
-  /// Estimated error of the drive's clock against the host's, ppm.
+  /// Estimated error of the drive's clock against the host's, ppm; 0 while it follows the host.
   double error_ppm() const;
 
  private:
@@ -44,6 +56,7 @@ class PlaybackClock {
   double max_error_;
   double sample_;
   bool running_ = false;
+  bool follows_host_ = false;
   HostTime start_{};
   double lowest_rate_ = 1.0;
   double highest_rate_ = 1.0;
