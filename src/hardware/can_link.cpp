@@ -15,6 +15,7 @@ canopen::MasterParameters master_parameters(const BusConfiguration& configuratio
   parameters.heartbeat_period = host_duration(configuration.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(configuration.heartbeat_timeout);
   parameters.sync_period = host_duration(configuration.sync_period);
+  parameters.time_stamp_period = configuration.time_stamp_period();
   parameters.bitrate = configuration.bitrate;
   parameters.max_bulk_load = configuration.max_load;
   parameters.sdo.timeout = host_duration(configuration.sdo_timeout);

@@ -23,6 +23,8 @@ constexpr double kDefaultAccelerationTime = 0.1;
 constexpr double kLongestFrameBits = 135.0;
 constexpr double kSyncBits = 55.0;
 constexpr double kHeartbeatBits = 65.0;
+constexpr double kTimeStampBits = 95.0;
+constexpr double kTimeStampInterval = 0.010;  // s
 
 const std::vector<std::pair<std::string, std::uint32_t>> kBitrates = {
     {"1000000", 1000000}, {"800000", 800000}, {"500000", 500000}, {"250000", 250000},
@@ -45,6 +47,7 @@ BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
   }
   bus.host_node_id = static_cast<int>(reader.integer("host_node_id", bus.host_node_id, 1, 127));
   bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);
+  bus.clock_discipline = reader.boolean("clock_discipline", bus.clock_discipline);
   bus.sdo_timeout = reader.number("sdo_timeout", bus.sdo_timeout, 0.01, 10.0);
   reader.refuse_unknown();
   return bus;
@@ -156,11 +159,13 @@ void check_nodes(const Configuration& configuration) {
 }
 
 /// What flows whether anything moves or not: per SYNC a position and a buffer report of each drive,
-/// heartbeats, a tenth of a demand report.
+/// heartbeats, a tenth of a demand report; time stamps.
 double background_load(const BusConfiguration& bus, std::size_t drives) {
   const double per_sync = kSyncBits + static_cast<double>(drives) * 2.1 * kLongestFrameBits;
+  const int period = bus.time_stamp_period();
+  const double time_stamps = period == 0 ? 0.0 : kTimeStampBits / (period * bus.sync_period);
   const double per_heartbeat = static_cast<double>(drives + 1) * kHeartbeatBits;
-  return (per_sync / bus.sync_period + per_heartbeat / bus.heartbeat_period) / bus.bitrate;
+  return (per_sync / bus.sync_period + time_stamps + per_heartbeat / bus.heartbeat_period) / bus.bitrate;
 }
 
 void check_background_load(const Configuration& configuration) {
@@ -179,6 +184,12 @@ void check_background_load(const Configuration& configuration) {
 }
 
 }  // namespace
+
+int BusConfiguration::time_stamp_period() const {
+  if (!clock_discipline) return 0;
+  // A SYNC period of a hair less than 10 ms is one of 10 ms.
+  return std::max(1, static_cast<int>(std::ceil(kTimeStampInterval / sync_period - 1e-6)));
+}
 
 Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf,
                                   const std::vector<std::string>& node_keys) {

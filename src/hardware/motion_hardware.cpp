@@ -36,6 +36,7 @@ axis::EposAxisParameters axis_parameters(const Configuration& configuration, con
   parameters.commit_horizon = configuration.commit_horizon;
   parameters.record_bus_time = record_bus_time;
   parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
+  parameters.clock_discipline = bus.clock_discipline;
   parameters.heartbeat_period = host_duration(bus.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
   parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
@@ -86,6 +87,7 @@ class MotionHardware::Implementation {
   std::vector<JointHandle> handles;
   EventLog log;
   WireObserver wire_observer;
+  std::function<void(std::size_t, const emulation::EposSample&)> sample_observer;
 
  private:
   struct JointValues {
@@ -96,6 +98,7 @@ class MotionHardware::Implementation {
 
   void add_bus(const BusConfiguration& bus);
   void add_drive(const Configuration& configuration, const DriveConfiguration& drive);
+  void take_sample(std::size_t joint, const emulation::EposSample& sample);
   void step(HostTime time);
   void follow_group();
   void begin_audit();
@@ -145,7 +148,12 @@ void MotionHardware::Implementation::add_drive(const Configuration& configuratio
   if (drive.emulation.missing) return;
   drives.back() = &world.add_epos(*virtual_buses_.at(drive.bus), drive.emulation.drive);
   drives.back()->set_sample_observer(
-      [this, index](const emulation::EposSample& sample) { audits[index].add(sample); });
+      [this, index](const emulation::EposSample& sample) { take_sample(index, sample); });
+}
+
+void MotionHardware::Implementation::take_sample(std::size_t joint, const emulation::EposSample& sample) {
+  audits[joint].add(sample);
+  if (sample_observer) sample_observer(joint, sample);
 }
 
 CanLink& MotionHardware::Implementation::link(const std::string& name) {
@@ -323,6 +331,11 @@ std::optional<MotionHardware::LogEntry> MotionHardware::take_log() { return impl
 
 void MotionHardware::set_wire_observer(WireObserver observer) {
   implementation_->wire_observer = std::move(observer);
+}
+
+void MotionHardware::set_sample_observer(
+    std::function<void(std::size_t, const emulation::EposSample&)> observer) {
+  implementation_->sample_observer = std::move(observer);
 }
 
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,

@@ -97,8 +97,9 @@ INSTANTIATE_TEST_SUITE_P(
                       "{limit_ranges_scale_with_notation: true}", "{lowest_velocity_notation: 0}",
                       "{lowest_velocity_notation: -1}", "{motion_check: knots}",
                       "{position_limit_check: per_record}", "{halt_release: needs_new_start}",
-                      "{clock_error_ppm: 100}", "{clock_error_ppm: -100}", "{tick_phase: 0.0009}",
-                      "{lag_ms: 10}"));
+                      "{clock_error_ppm: 100}", "{clock_error_ppm: -100}", "{time_stamp_pdo_mappable: false}",
+                      "{clock_discipline: false}", "{clock_error_ppm: 200, clock_slew: 0.0005}",
+                      "{tick_phase: 0.0009}", "{lag_ms: 10}"));
 
 }  // namespace
 }  // namespace interpolated_motion::test

@@ -37,6 +37,9 @@ const BadConfiguration kBad[] = {
     {"BoundBelowRounding", "{drives: {joint1: {deviation_bound: 0.1}}}", {"deviation_bound", "0.1"}},
     {"ConstraintOfUnknownJoint", "{constraints: {joint9: {goal: 0.1}}}", {"constraints/joint9", "unknown"}},
     {"BusTooSlow", "{buses: {can0: {bitrate: 50000}}}", {"can0", "sync_period"}},
+    {"DisciplineIsYesOrNo",
+     "{buses: {can0: {clock_discipline: sometimes}}}",
+     {"buses/can0/clock_discipline", "sometimes"}},
     {"HeartbeatTooTight", "{buses: {can0: {heartbeat_timeout: 0.1}}}", {"heartbeat_timeout", "1.5"}},
 };
 
@@ -77,6 +80,19 @@ TEST(Configuration, LimitsComeFromTheUrdfAndMayBeTightened) {
   EXPECT_DOUBLE_EQ(configuration.drives[1].limits.max_velocity, 1.0);
   EXPECT_DOUBLE_EQ(configuration.drives[1].limits.max_position, 2.0);
   EXPECT_DOUBLE_EQ(configuration.drives[1].limits.min_position, -3.1);
+}
+
+TEST(Configuration, TimeStampsComeAboutEachTenMilliseconds) {
+  hardware::BusConfiguration bus;
+  EXPECT_EQ(bus.time_stamp_period(), 1);
+  bus.sync_period = 0.1;
+  EXPECT_EQ(bus.time_stamp_period(), 1);
+  bus.sync_period = 0.001;
+  EXPECT_EQ(bus.time_stamp_period(), 10);
+  bus.sync_period = 0.003;
+  EXPECT_EQ(bus.time_stamp_period(), 4);
+  bus.clock_discipline = false;
+  EXPECT_EQ(bus.time_stamp_period(), 0);
 }
 
 TEST(Configuration, KeysOfTheNodeAreItsOwnBusiness) {

@@ -16,6 +16,10 @@
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
+namespace interpolated_motion::emulation {
+struct EposSample;
+}
+
 namespace interpolated_motion::hardware {
 
 /// A named joint as ros_control hands it out: pointers that stay valid as long as the hardware lives.
@@ -81,6 +85,9 @@ class MotionHardware {
 
   /// `observer` is called with every frame seen on any CAN bus, in the order of the wire.
   void set_wire_observer(std::function<void(const std::string& bus, const canopen::ReceivedFrame&)> observer);
+
+  /// `observer` is called at each 1 ms sample of an emulated drive, with the number of its joint in joints().
+  void set_sample_observer(std::function<void(std::size_t joint, const emulation::EposSample&)> observer);
 
   /// Injects a fault into the emulated drive of a joint or into an emulated bus, see fault_injection.h. False
   /// with a reason when `target` is not emulated or the command is unknown.
