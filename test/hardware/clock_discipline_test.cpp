@@ -49,14 +49,15 @@ class Sine {
     end_ = scenario.now() + host_duration(seconds - 0.05);
   }
 
-  /// Runs for `seconds`, at most to shortly before the end of the goal; false from there on.
+  /// Runs for `seconds`, at most to shortly before the end of the goal; false from there on, or
+  /// when the motion has ended.
   bool run(double seconds) {
     const HostTime until = std::min(end_, scenario.now() + host_duration(seconds));
     while (scenario.now() < until && scenario.state() == GroupState::Moving) {
       scenario.run(0.001);
       look();
     }
-    return scenario.now() < end_;
+    return scenario.now() < end_ && scenario.state() == GroupState::Moving;
   }
 
   void finish() {
