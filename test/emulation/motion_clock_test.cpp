@@ -129,11 +129,14 @@ TEST(MotionClock, ADifferenceAcrossTheTurnOfTheCountIsSmall) {
   const std::size_t first = drive.samples.size() - 1;
   drive.cycles(200, false);
   EXPECT_NEAR(drive.early(first, 1990), -199.0, 5.0);
+  const auto last_early = [&] { return drive.early(first, drive.samples.size() - 1 - first); };
+  const double before = last_early();
   ASSERT_EQ(drive.sync(), 100U);
   drive.time_stamp(100);
   drive.host.run(ms(9));
+  EXPECT_GT(last_early() - before, 5.0) << "1 us for each sample, in the right direction";
   drive.cycles(40);
-  EXPECT_NEAR(drive.early(first, drive.samples.size() - 1 - first), 0.0, 5.0);
+  EXPECT_NEAR(last_early(), 0.0, 5.0);
 }
 
 // The master's clock is 300 us ahead from one time stamp to the next.
