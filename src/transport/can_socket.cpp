@@ -1,0 +1,197 @@
+#include "can_socket.h"
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <linux/sock_diag.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <boost/system/system_error.hpp>
+
+#include "interpolated_motion_driver/transport/host_clock.h"
+
+namespace interpolated_motion::transport {
+namespace {
+
+/// A stamp further back than this is not believed: the wall clock was set meanwhile.
+constexpr HostDuration kOldestStamp = std::chrono::seconds(60);
+
+[[noreturn]] void fail(const char* what) {
+  throw boost::system::system_error(errno, boost::system::system_category(), what);
+}
+
+template <class Value>
+void set_option(int fd, int level, int option, const Value& value, const char* what) {
+  if (setsockopt(fd, level, option, &value, sizeof value) != 0) fail(what);
+}
+
+void set_filters(int fd, const std::vector<CanSocket::Filter>& filters) {
+  if (filters.empty()) return;
+  std::vector<can_filter> kernel_filters;
+  kernel_filters.reserve(filters.size());
+  for (const CanSocket::Filter& filter : filters) {
+    kernel_filters.push_back({filter.id, filter.mask | CAN_EFF_FLAG});
+  }
+  const auto bytes = static_cast<socklen_t>(kernel_filters.size() * sizeof(can_filter));
+  if (setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, kernel_filters.data(), bytes) != 0) fail("CAN_RAW_FILTER");
+}
+
+void set_buffers(int fd, int receive_buffer, int send_buffer) {
+  // Beyond net.core.rmem_max for root only.
+  if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &receive_buffer, sizeof receive_buffer) != 0) {
+    set_option(fd, SOL_SOCKET, SO_RCVBUF, receive_buffer, "SO_RCVBUF");
+  }
+  if (send_buffer > 0) set_option(fd, SOL_SOCKET, SO_SNDBUF, send_buffer, "SO_SNDBUF");
+}
+
+void set_options(int fd) {
+  constexpr int kOn = 1;
+  constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
+  set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, kOn, "CAN_RAW_RECV_OWN_MSGS");
+  set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors, "CAN_RAW_ERR_FILTER");
+  set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, kOn, "SO_RXQ_OVFL");
+  set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, kOn, "SO_TIMESTAMPNS");
+}
+
+void bind_to(int fd, int interface_index) {
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = interface_index;
+  if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) fail("bind");
+}
+
+can_frame to_kernel(const canopen::Frame& frame) {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
+  raw.can_dlc = frame.length;
+  std::copy(frame.data.begin(), frame.data.end(), raw.data);
+  return raw;
+}
+
+canopen::Frame from_kernel(const can_frame& raw) {
+  canopen::Frame frame;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+  frame.length = std::min<std::uint8_t>(raw.can_dlc, CAN_MAX_DLEN);
+  if (!frame.remote) std::copy_n(raw.data, frame.length, frame.data.begin());
+  return frame;
+}
+
+/// The wall clock may have been set since the stamp was taken: an age that cannot be is taken as none.
+HostTime host_time_of(HostDuration wall_stamp) {
+  const HostDuration age = read_wall_clock() - wall_stamp;
+  const bool credible = age >= HostDuration::zero() && age < kOldestStamp;
+  return read_host_clock() - (credible ? age : HostDuration::zero());
+}
+
+struct Ancillary {
+  std::optional<HostDuration> wall_stamp;
+  std::optional<std::uint32_t> dropped;
+};
+
+Ancillary read_ancillary(msghdr& message) {
+  Ancillary found;
+  for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level != SOL_SOCKET) continue;
+    if (c->cmsg_type == SO_TIMESTAMPNS) {
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
+      found.wall_stamp = std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec);
+    } else if (c->cmsg_type == SO_RXQ_OVFL) {
+      std::uint32_t dropped = 0;
+      std::memcpy(&dropped, CMSG_DATA(c), sizeof dropped);
+      found.dropped = dropped;
+    }
+  }
+  return found;
+}
+
+int open_socket() {
+  const int fd = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+  if (fd < 0) fail("socket");
+  return fd;
+}
+
+}  // namespace
+
+CanSocket::CanSocket(boost::asio::io_context& io, int interface_index, const std::vector<Filter>& filters,
+                     int receive_buffer, int send_buffer)
+    : descriptor_(io, open_socket()) {
+  const int fd = descriptor_.native_handle();
+  set_options(fd);
+  set_filters(fd, filters);
+  set_buffers(fd, receive_buffer, send_buffer);
+  bind_to(fd, interface_index);
+}
+
+CanSocket::SendResult CanSocket::send(const canopen::Frame& frame) {
+  const can_frame raw = to_kernel(frame);
+  ssize_t written = -1;
+  do {
+    written = write(descriptor_.native_handle(), &raw, sizeof raw);
+  } while (written < 0 && errno == EINTR);
+  if (written == static_cast<ssize_t>(sizeof raw)) return SendResult::Taken;
+  switch (errno) {
+    case EAGAIN:
+      return SendResult::SocketFull;
+    case ENOBUFS:
+      return SendResult::QueueFull;
+    default:
+      return SendResult::Down;
+  }
+}
+
+std::optional<CanSocket::Received> CanSocket::receive() {
+  can_frame raw{};
+  iovec data{&raw, sizeof raw};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t))> control;
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  ssize_t length = -1;
+  do {
+    length = recvmsg(descriptor_.native_handle(), &message, 0);
+  } while (length < 0 && errno == EINTR);
+
+  Received received;
+  if (length < 0) {
+    if (errno == EAGAIN) return std::nullopt;
+    received.down = true;
+    return received;
+  }
+  const Ancillary ancillary = read_ancillary(message);
+  if (ancillary.dropped) dropped_ = *ancillary.dropped;
+  last_time_ =
+      std::max(last_time_, ancillary.wall_stamp ? host_time_of(*ancillary.wall_stamp) : read_host_clock());
+  received.frame = {from_kernel(raw), last_time_, (message.msg_flags & MSG_CONFIRM) != 0};
+  if ((raw.can_id & CAN_ERR_FLAG) != 0) received.error_classes = raw.can_id & CAN_ERR_MASK;
+  return received;
+}
+
+std::uint32_t CanSocket::dropped() {
+  // A frame carries the count as it was when that frame came; after the last frame only this tells.
+  std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+  socklen_t length = sizeof memory;
+  if (getsockopt(descriptor_.native_handle(), SOL_SOCKET, SO_MEMINFO, memory.data(), &length) == 0 &&
+      length > SK_MEMINFO_DROPS * sizeof(std::uint32_t)) {
+    dropped_ = memory[SK_MEMINFO_DROPS];
+  }
+  return dropped_;
+}
+
+int CanSocket::receive_buffer() {
+  int bytes = 0;
+  socklen_t length = sizeof bytes;
+  getsockopt(descriptor_.native_handle(), SOL_SOCKET, SO_RCVBUF, &bytes, &length);
+  return bytes;
+}
+
+}  // namespace interpolated_motion::transport

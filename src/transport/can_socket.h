@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+
+#include "interpolated_motion_driver/protocol/canopen/frame.h"
+
+namespace interpolated_motion::transport {
+
+/// A CAN_RAW socket bound to one interface (linux/can/raw.h): the system calls of SocketcanBus. It hears its
+/// own frames once they have been sent, and error frames.
+class CanSocket {
+ public:
+  enum class SendResult {
+    Taken,
+    SocketFull,  ///< the socket's own buffer is full: it becomes writable again
+    QueueFull,   ///< the interface's queue is full: the socket does not tell when there is room again
+    Down,        ///< the interface is down or gone
+  };
+
+  /// What was read: a frame, an error frame (`error_classes` set, contents in `frame.frame.data`), or news
+  /// that the interface is down or gone.
+  struct Received {
+    canopen::ReceivedFrame frame;
+    std::uint32_t error_classes = 0;
+    bool down = false;
+  };
+
+  /// Identifier and mask of frames to receive, standard format only.
+  struct Filter {
+    std::uint32_t id = 0;
+    std::uint32_t mask = 0;
+  };
+
+  /// Opens and binds. `filters` empty: every frame. Throws boost::system::system_error.
+  CanSocket(boost::asio::io_context& io, int interface_index, const std::vector<Filter>& filters,
+            int receive_buffer, int send_buffer);
+
+  SendResult send(const canopen::Frame& frame);
+  std::optional<Received> receive();
+
+  /// Received frames that the kernel had no room for, since the socket was opened.
+  std::uint32_t dropped();
+
+  /// Size of the receive buffer the kernel has granted, bytes.
+  int receive_buffer();
+
+  boost::asio::posix::stream_descriptor& descriptor() { return descriptor_; }
+
+ private:
+  boost::asio::posix::stream_descriptor descriptor_;
+  std::uint32_t dropped_ = 0;
+  HostTime last_time_{};
+};
+
+}  // namespace interpolated_motion::transport
