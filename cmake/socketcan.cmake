@@ -1,4 +1,4 @@
-# What runs on SocketCAN outside of the stages: tests across the kernel.
+# What runs on SocketCAN outside of the stages: the program emulated_drives, and tests across the kernel.
 
 # The transports use Boost.Asio: headers, Boost.System, and threads for older C libraries.
 function(imd_link_transports)
@@ -7,8 +7,26 @@ function(imd_link_transports)
   target_link_libraries(imd_transport PUBLIC Boost::system Threads::Threads)
 endfunction()
 
-# test/socketcan: a GoogleTest program that needs CAN in the kernel and makes interfaces of its own, so it runs within
-# scripts/with_vcan.
+# src/emulated_drives: a program without ROS, but where rosrun finds it.
+function(imd_add_emulated_drives)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/emulated_drives/*.cpp)
+  add_executable(emulated_drives ${sources})
+  set_target_properties(emulated_drives PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_link_libraries(emulated_drives PRIVATE imd_hardware)
+  install(TARGETS emulated_drives RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+# Registers a test that needs CAN in the kernel, and so runs within scripts/with_vcan; the result file follows `result_option`.
+function(imd_add_vcan_test type name result_option command)
+  set(xml ${type}-${name}.xml)
+  catkin_run_tests_target(${type} ${name} ${xml} DEPENDENCIES ${ARGN}
+    COMMAND "${PROJECT_SOURCE_DIR}/scripts/with_vcan --timeout 500 ${command} ${result_option}${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${xml}")
+  # They watch the clock.
+  set_tests_properties(_ctest_${PROJECT_NAME}_${type}_${name} PROPERTIES RUN_SERIAL TRUE)
+endfunction()
+
+# test/socketcan: a GoogleTest program, which makes interfaces of its own, and Python tests of programs.
 function(imd_add_socketcan_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/socketcan/*.cpp)
   add_executable(socketcan_tests EXCLUDE_FROM_ALL ${sources})
@@ -16,9 +34,10 @@ function(imd_add_socketcan_tests)
   target_include_directories(socketcan_tests PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(socketcan_tests PRIVATE imd_transport GTest::GTest GTest::Main)
   add_dependencies(tests socketcan_tests)
-  set(xml gtest-socketcan_tests.xml)
-  catkin_run_tests_target("gtest" socketcan_tests ${xml} DEPENDENCIES socketcan_tests
-    COMMAND "${PROJECT_SOURCE_DIR}/scripts/with_vcan --timeout 500 ${PROJECT_BINARY_DIR}/socketcan_tests --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${xml}")
-  # They watch the clock.
-  set_tests_properties(_ctest_${PROJECT_NAME}_gtest_socketcan_tests PROPERTIES RUN_SERIAL TRUE)
+  imd_add_vcan_test(gtest socketcan_tests --gtest_output=xml: ${PROJECT_BINARY_DIR}/socketcan_tests socketcan_tests)
+
+  set(program ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/emulated_drives)
+  imd_add_vcan_test(pytest emulated_drives_test --junitxml=
+    "env IMD_EMULATED_DRIVES=${program} ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test/socketcan/emulated_drives_test.py"
+    emulated_drives)
 endfunction()

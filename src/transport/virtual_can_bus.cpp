@@ -142,8 +142,10 @@ void VirtualCanBus::start_frame(HostTime now) {
   Port& from = ports_[static_cast<std::size_t>(sender_)];
   current_ = from.front().frame;
   frame_bits_ = can_frame_bits(current_);
-  free_at_ = now + bit_times(frame_bits_, bitrate_);
-  end_at_ = now + bit_times(frame_bits_ - kInterframeBits, bitrate_);
+  free_at_ = end_at_ = now;
+  if (instantaneous_) return;
+  free_at_ += bit_times(frame_bits_, bitrate_);
+  end_at_ += bit_times(frame_bits_ - kInterframeBits, bitrate_);
 }
 
 void VirtualCanBus::end_frame() {

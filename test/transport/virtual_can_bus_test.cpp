@@ -54,6 +54,16 @@ TEST_F(VirtualCanBusTest, FramesTakeTheirBitTimes) {
   EXPECT_EQ(bus.statistics().frames, 2U);
 }
 
+TEST_F(VirtualCanBusTest, AnInstantaneousBusTakesNoTimeAndStillArbitrates) {
+  bus.set_instantaneous(true);
+  ASSERT_TRUE(bus.send(port_a, frame(0x300), at_us(1000)));
+  ASSERT_TRUE(bus.host().send(frame(0x202), at_us(1000)));
+  ASSERT_TRUE(bus.host().send(frame(0x201), at_us(1000)));
+  bus.process(at_us(1000));
+  EXPECT_EQ(ids(b), (std::vector<std::uint32_t>{0x202, 0x201, 0x300}));
+  for (const auto& f : b.seen) EXPECT_EQ(f.time, at_us(1000));
+}
+
 TEST_F(VirtualCanBusTest, HalfTheBitrateTakesTwiceTheTime) {
   VirtualCanBus slow("can1", 500'000);
   Listener c;

@@ -71,6 +71,9 @@ class World {
   /// Virtual time up to which everything has been computed.
   HostTime now() const { return now_; }
 
+  /// Time of the next thing that a bus or a drive does by itself, kNever when there is none.
+  HostTime next_event() const;
+
  private:
   struct Member {
     transport::VirtualCanBus* bus;
@@ -83,7 +86,6 @@ class World {
   };
 
   void require_free_name(const std::string& name) const;
-  HostTime next_event() const;
   std::uint64_t delivered() const;
   void process_events();
 

@@ -56,6 +56,10 @@ class VirtualCanBus {
   const std::string& name() const { return name_; }
   int bitrate() const { return bitrate_; }
 
+  /// Frames take no time (true), for a bus that is the near end of a real one, on which they take theirs.
+  /// Arbitration, queues and injections stay. Applies from the next frame on.
+  void set_instantaneous(bool instantaneous) { instantaneous_ = instantaneous; }
+
   /// The host's end of the bus.
   CanBus& host();
 
@@ -120,6 +124,7 @@ class VirtualCanBus {
   HostTime host_off_until_;
   int sender_ = -1;
   int frame_bits_ = 0;
+  bool instantaneous_ = false;
   canopen::Frame current_;
   std::vector<Port> ports_;
   std::unique_ptr<HostPort> host_;

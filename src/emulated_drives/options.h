@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace interpolated_motion::emulated_drives {
+
+/// Command line of emulated_drives.
+struct Options {
+  std::string interface;             ///< SocketCAN interface
+  std::vector<int> nodes;            ///< node ids of EPOS drives with default settings, 1..127
+  std::string config_file;           ///< driver configuration whose drives are emulated
+  std::string bus;                   ///< the bus of that configuration; empty: its only one
+  std::vector<double> clock_errors;  ///< ppm, one for each drive or one for all; empty: as configured
+  std::uint32_t bitrate = 0;         ///< bit/s, 0: of the configuration, else 1000000
+  bool help = false;
+};
+
+/// Reads the arguments after the program's name. Throws std::invalid_argument with the argument that is wrong
+/// and what is allowed.
+Options parse_options(const std::vector<std::string>& arguments);
+
+/// How to call the program.
+std::string usage();
+
+}  // namespace interpolated_motion::emulated_drives
