@@ -19,7 +19,8 @@
 namespace interpolated_motion::emulated_drives {
 namespace {
 
-enum ExitCode { kEnded = 0, kBadInput = 2 };
+constexpr int kEnded = 0;
+constexpr int kBadInput = 2;
 
 void say(const std::string& text) {
   std::puts(text.c_str());

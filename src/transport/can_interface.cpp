@@ -12,7 +12,7 @@ bool has_bit_timing(const CanInterface& interface) {
 }  // namespace
 
 std::string bring_up_command(const CanInterface& interface, std::uint32_t bitrate) {
-  const std::string command = fmt::format("sudo ip link set dev {} up", interface.name);
+  std::string command = fmt::format("sudo ip link set dev {} up", interface.name);
   if (!has_bit_timing(interface) || bitrate == 0) return command;
   return fmt::format("{} type can bitrate {} restart-ms 100", command, bitrate);
 }

@@ -45,8 +45,10 @@ class CanSocket {
   SendResult send(const canopen::Frame& frame);
   std::optional<Received> receive();
 
-  /// Received frames that the kernel had no room for, since the socket was opened.
+  /// Received frames that the kernel had no room for, since the socket was opened. Asks the kernel.
   std::uint32_t dropped();
+  /// The same as the last frame received has told it: frames lost after that one are not in it.
+  std::uint32_t known_dropped() const { return dropped_; }
 
   /// Size of the receive buffer the kernel has granted, bytes.
   int receive_buffer();

@@ -185,6 +185,7 @@ std::optional<canopen::ReceivedFrame> SocketcanBus::Implementation::receive() {
       report.time = received->frame.time;
       on_error_frame(report);
     } else {
+      if (socket->known_dropped() != overflow_seen_) count_overflow();
       if (received->frame.own) {
         on_own_frame(received->frame.time);
       } else {

@@ -45,6 +45,7 @@ def ours(header):
     ("emulation", "protocol/canopen/sdo_client.h"),
     ("hardware", "node/clock.h"),
     ("node", "tools/client.h"),
+    ("emulated_drives", "node/clock.h"),
 ])
 def test_an_arrow_that_runs_back_is_found(stage, header):
     assert len(faults(stage, ours(header))) == 1
@@ -61,6 +62,7 @@ def test_an_arrow_that_runs_back_is_found(stage, header):
     ("hardware", "emulation/drive.h"),
     ("node", "hardware/configuration.h"),
     ("node", "DriveState.h"),
+    ("emulated_drives", "hardware/fault_injection.h"),
 ])
 def test_an_arrow_of_the_table_is_allowed(stage, header):
     assert faults(stage, ours(header)) == []
@@ -68,6 +70,7 @@ def test_an_arrow_of_the_table_is_allowed(stage, header):
 
 @pytest.mark.parametrize("stage, line", [
     ("hardware", "#include <ros/ros.h>"),
+    ("emulated_drives", "#include <ros/ros.h>"),
     ("motion", "#include <control_msgs/FollowJointTrajectoryAction.h>"),
     ("hardware", "#include <actionlib/server/action_server.h>"),
     ("hardware", '#include "interpolated_motion_driver/DriveState.h"'),

@@ -282,6 +282,22 @@ TEST_F(SocketcanBusTest, FramesLostToASmallBufferAreCounted) {
   EXPECT_EQ(counters.received, received);
 }
 
+TEST_F(SocketcanBusTest, LostConfirmationsDoNotHoldUpSending) {
+  SocketcanParameters p = parameters();
+  p.receive_buffer = 64 << 10;
+  p.transmit_limit = 3;
+  SocketcanBus bus(io, p, read_host_clock());
+  RawCan other(vcan.name());
+  ASSERT_EQ(flood(other, 2000), 2000U);  // the buffer is full
+  for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(bus.send(frame(0x201, i), read_host_clock()));
+  ASSERT_FALSE(bus.send(frame(0x201, 3), read_host_clock()));
+  while (const auto received = bus.receive()) ASSERT_FALSE(received->own) << "nothing was lost";
+  ASSERT_TRUE(other.send(0x181));
+  ASSERT_TRUE(bus.receive());
+  EXPECT_TRUE(bus.send(frame(0x201, 3), read_host_clock()));
+  EXPECT_EQ(bus.counters().unconfirmed, 3U);
+}
+
 // ---- the interface comes and goes
 
 TEST_F(SocketcanBusTest, DownAndUpAgain) {

@@ -1,7 +1,7 @@
 #include "interpolated_motion_driver/transport/serial_port_line.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
