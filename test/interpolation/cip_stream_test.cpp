@@ -139,6 +139,7 @@ std::vector<Arrival> lossy_arrivals(std::uint64_t seed, int count, StreamResult&
 
 /// Nodes of the polynomial in effect at `t`, of the commands received so far.
 std::vector<double> nodes_in_effect(const std::vector<double>& stamps, double t, int order) {
+  if (stamps.empty()) return {};
   std::size_t end = 0;
   while (end + 1 < stamps.size() && stamps[end] <= t + 1e-9) ++end;
   std::vector<double> nodes;
@@ -170,7 +171,7 @@ class StreamRun {
  private:
   static constexpr double kSettled = 9 * kT;  // from here on nothing of the rest before the motion is used
 
-  /// Samples each ms, and on both sides of each t0 that is passed.
+  /// Samples each ms.
   void play_to(double end) {
     for (; clock_ < end; clock_ += 0.001) {
       const CipSample sample = interpolator_.sample(at(clock_));
