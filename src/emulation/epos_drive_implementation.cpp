@@ -33,7 +33,7 @@ EposDrive::Implementation::Implementation(transport::VirtualCanBus& bus, transpo
       clock_(parameters_, now),
       objects_(parameters_),
       sdo_(*this),
-      pdo_(objects_, parameters_, *this),
+      pdo_(objects_, parameters_.pdo_setup_only_pre_operational, *this),
       ip_(parameters_),
       plant_(parameters.plant, parameters.initial_position) {
   power_up(now);

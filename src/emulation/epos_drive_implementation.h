@@ -5,11 +5,11 @@
 
 #include "interpolated_motion_driver/emulation/device_control.h"
 #include "interpolated_motion_driver/emulation/epos_drive.h"
+#include "interpolated_motion_driver/emulation/epos_objects.h"
 #include "interpolated_motion_driver/emulation/error_store.h"
 #include "interpolated_motion_driver/emulation/interpolated_position_mode.h"
 #include "interpolated_motion_driver/emulation/motion_clock.h"
 #include "interpolated_motion_driver/emulation/nmt_slave.h"
-#include "interpolated_motion_driver/emulation/object_dictionary.h"
 #include "interpolated_motion_driver/emulation/pdo_engine.h"
 #include "interpolated_motion_driver/emulation/plant.h"
 #include "interpolated_motion_driver/emulation/sdo_server.h"
@@ -122,7 +122,7 @@ class EposDrive::Implementation : public SdoObjects, public PdoOwner {
   MotionClock clock_;
   std::int64_t milliseconds_ = 0;
 
-  ObjectDictionary objects_;
+  EposObjects objects_;
   std::optional<ObjectDictionary::Values> stored_;
   SdoServer sdo_;
   NmtSlave nmt_;

@@ -39,12 +39,12 @@ bool PdoEngine::concerns(std::uint16_t index) {
 }
 
 std::int64_t PdoEngine::value(std::uint16_t index, std::uint8_t subindex) const {
-  return objects_.get(object_slot(index, subindex));
+  return objects_.get(objects_.find(index, subindex));
 }
 
 AbortCode PdoEngine::check(ObjectDictionary::Slot slot, std::int64_t value, bool operational) const {
-  const ObjectEntry& entry = kEposObjects[slot];
-  if (operational && parameters_.pdo_setup_only_pre_operational) return AbortCode::WrongNmtState;
+  const ObjectEntry& entry = objects_.entry(slot);
+  if (operational && setup_only_pre_operational_) return AbortCode::WrongNmtState;
   if (is_mapping(entry.index)) {
     return entry.subindex == 0 ? check_mapping_count(entry.index, value)
                                : check_mapping_entry(entry.index, value);
@@ -72,7 +72,7 @@ AbortCode PdoEngine::check_mapping_entry(std::uint16_t index, std::int64_t value
   const auto slot =
       objects_.find(static_cast<std::uint16_t>(value >> 16), static_cast<std::uint8_t>(value >> 8));
   if (slot == ObjectDictionary::kNone) return AbortCode::NoSuchObject;
-  const int bits = 8 * size_of(kEposObjects[slot].type);
+  const int bits = 8 * size_of(objects_.entry(slot).type);
   return (value & 0xFF) == bits && objects_.mappable(slot, is_receive(index)) ? AbortCode::None
                                                                               : AbortCode::NotMappable;
 }

@@ -4,36 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "interpolated_motion_driver/emulation/object_entry.h"
+#include "interpolated_motion_driver/emulation/object_table.h"
 
 namespace interpolated_motion::emulation {
-namespace object_table {
-
-constexpr auto I8 = ObjectType::I8;
-constexpr auto I16 = ObjectType::I16;
-constexpr auto I32 = ObjectType::I32;
-constexpr auto U8 = ObjectType::U8;
-constexpr auto U16 = ObjectType::U16;
-constexpr auto U32 = ObjectType::U32;
-constexpr auto U64 = ObjectType::U64;
-constexpr auto String = ObjectType::String;
-constexpr auto Ro = Access::Ro;
-constexpr auto Wo = Access::Wo;
-constexpr auto Rw = Access::Rw;
-constexpr auto Rww = Access::Rww;
-constexpr auto Const = Access::Const;
-
-constexpr ObjectEntry object(std::uint16_t index, std::uint8_t subindex, ObjectType type, Access access) {
-  ObjectEntry entry;
-  entry.index = index;
-  entry.subindex = subindex;
-  entry.type = type;
-  entry.access = access;
-  return entry;
-}
-
-}  // namespace object_table
-
 /// Objects of an EPOS2 70/10, firmware 0x2126, as its EDS states them, in the order of index and sub-index.
 /// Not in that table but named by its default PDO mapping: 0x60FF. Ranges are those of the EDS; the emulated
 /// drive narrows some more.
@@ -242,17 +215,7 @@ inline constexpr auto kEposObjects = [] {
 
 /// Row of an object in kEposObjects; the size of the table when there is none.
 constexpr std::size_t object_slot(std::uint16_t index, std::uint8_t subindex) {
-  std::size_t low = 0;
-  std::size_t high = kEposObjects.size();
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    const ObjectEntry& entry = kEposObjects[middle];
-    const bool before = entry.index < index || (entry.index == index && entry.subindex < subindex);
-    (before ? low : high) = before ? middle + 1 : middle;
-  }
-  const bool found =
-      low < kEposObjects.size() && kEposObjects[low].index == index && kEposObjects[low].subindex == subindex;
-  return found ? low : kEposObjects.size();
+  return ObjectTable{kEposObjects.data(), kEposObjects.size()}.slot(index, subindex);
 }
 
 /// Row of an object that is known to exist.

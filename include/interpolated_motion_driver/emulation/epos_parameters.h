@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "interpolated_motion_driver/emulation/plant_parameters.h"
 #include "interpolated_motion_driver/units/time.h"
 
 /// Settings of an emulated EPOS drive. What the documents leave open is a parameter here, so that a driver
@@ -75,13 +76,6 @@ enum class HaltRelease {
 
 /// What happens when bit 4 is cleared or another mode is selected in the middle of a motion.
 enum class ActiveStop { ProfileDeceleration, AtOnce };
-
-/// The axis behind the drive: a position loop that follows the demand with a second-order lag.
-struct PlantParameters {
-  double lag_ms =
-      2.0;  ///< ms, >= 0: following error at constant velocity divided by that velocity; 0: follows exactly
-  double load_counts = 0.0;  ///< counts: standing deviation caused by an external load
-};
 
 /// All settings of an emulated drive. Defaults are an EPOS2 70/10 with firmware 0x2126 as delivered.
 struct EposParameters {

@@ -1,27 +1,31 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "interpolated_motion_driver/emulation/abort_code.h"
-#include "interpolated_motion_driver/emulation/epos_object_table.h"
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/object_table.h"
 
 namespace interpolated_motion::emulation {
 
 /// Values of the objects of one drive, and the checks every access goes through. Values are kept as numbers,
-/// sign-extended; an unsigned 64-bit value keeps its bits.
+/// sign-extended; an unsigned 64-bit value keeps its bits. A kind of drive derives its own from it, with its
+/// table, its presets and its exceptions.
 class ObjectDictionary {
  public:
   using Slot = std::size_t;
-  using Values = std::array<std::int64_t, kEposObjects.size()>;
-  static constexpr Slot kNone = kEposObjects.size();
+  using Values = std::vector<std::int64_t>;
+  static constexpr Slot kNone = SIZE_MAX;
 
-  explicit ObjectDictionary(const EposParameters& parameters);
+  virtual ~ObjectDictionary() = default;
 
   /// Row of an object of this drive, kNone when it has none.
   Slot find(std::uint16_t index, std::uint8_t subindex) const;
+
+  /// The row itself.
+  const ObjectEntry& entry(Slot slot) const { return table_.rows[slot]; }
+  Slot size() const { return table_.size; }
 
   /// Why there is no such object: NoSuchObject or NoSuchSubindex.
   AbortCode why_missing(std::uint16_t index) const;
@@ -43,18 +47,27 @@ class ObjectDictionary {
   AbortCode check_write(Slot slot, std::size_t size, std::uint64_t raw, std::int64_t& value) const;
 
   /// Whether an object may be mapped into a PDO of the given direction.
-  bool mappable(Slot slot, bool into_receive_pdo) const;
+  virtual bool mappable(Slot slot, bool into_receive_pdo) const;
+
+ protected:
+  /// Defaults of the table, `node_id` added where it says so.
+  ObjectDictionary(ObjectTable table, std::uint8_t node_id);
+
+  /// Gives an object that exists a default of the drive's own. For constructors.
+  void preset(std::uint16_t index, std::uint8_t subindex, std::int64_t value);
 
  private:
-  bool hidden(std::uint16_t index) const;
-  AbortCode check_range(Slot slot, std::int64_t value) const;
-  /// How many of the unit of 0x608B make an rpm.
-  std::int64_t notation_scale() const;
+  /// Objects of the table this drive does not have.
+  virtual bool hidden(std::uint16_t index) const;
+  virtual AbortCode check_range(Slot slot, std::int64_t value) const;
 
-  const EposParameters& parameters_;
-  Values defaults_{};
-  Values values_{};
+  ObjectTable table_;
+  Values defaults_;
+  Values values_;
 };
+
+/// TooHigh, TooLow or None.
+AbortCode check_between(std::int64_t low, std::int64_t value, std::int64_t high);
 
 /// Number encoded by the low bytes of `raw` for this type.
 std::int64_t decode(ObjectType type, std::uint64_t raw);

@@ -34,8 +34,9 @@ class PdoEngine {
  public:
   static constexpr int kCount = 4;
 
-  PdoEngine(ObjectDictionary& objects, const EposParameters& parameters, PdoOwner& owner)
-      : objects_(objects), parameters_(parameters), owner_(owner) {}
+  /// `setup_only_pre_operational`: while Operational no PDO parameter can be written.
+  PdoEngine(ObjectDictionary& objects, bool setup_only_pre_operational, PdoOwner& owner)
+      : objects_(objects), setup_only_pre_operational_(setup_only_pre_operational), owner_(owner) {}
 
   /// Whether the index belongs to PDO communication or mapping parameters.
   static bool concerns(std::uint16_t index);
@@ -93,7 +94,7 @@ class PdoEngine {
   void sync_transmit(Pdo& pdo);
 
   ObjectDictionary& objects_;
-  const EposParameters& parameters_;
+  bool setup_only_pre_operational_;
   PdoOwner& owner_;
   std::array<Pdo, kCount> receive_{};
   std::array<Pdo, kCount> transmit_{};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/plant_parameters.h"
 
 namespace interpolated_motion::emulation {
 
