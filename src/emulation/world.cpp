@@ -22,16 +22,27 @@ transport::VirtualCanBus& World::add_can_bus(std::string name, int bitrate) {
   return *buses_.back();
 }
 
-EposDrive& World::add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters) {
+template <class Drive, class Parameters>
+Drive& World::add(transport::VirtualCanBus& bus, const Parameters& parameters) {
   for (const Member& member : members_) {
-    if (member.bus == &bus && member.drive->parameters().node_id == parameters.node_id) {
+    if (member.bus == &bus && member.node_id == parameters.node_id) {
       throw std::invalid_argument(
           fmt::format("bus {}: node_id {} is taken by another drive", bus.name(), parameters.node_id));
     }
   }
   validate(parameters);
-  members_.push_back({&bus, std::make_unique<EposDrive>(bus, parameters, now_)});
-  return *members_.back().drive;
+  auto drive = std::make_unique<Drive>(bus, parameters, now_);
+  Drive& added = *drive;
+  members_.push_back({&bus, parameters.node_id, std::move(drive)});
+  return added;
+}
+
+EposDrive& World::add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters) {
+  return add<EposDrive>(bus, parameters);
+}
+
+CyclicDrive& World::add_cyclic(transport::VirtualCanBus& bus, const CyclicParameters& parameters) {
+  return add<CyclicDrive>(bus, parameters);
 }
 
 transport::CanBus& World::can_bus(std::string_view name) {

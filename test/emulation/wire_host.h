@@ -42,6 +42,11 @@ class WireHost {
     node = parameters.node_id;
   }
 
+  explicit WireHost(const CyclicParameters& parameters) : bus(world.add_can_bus("can0", 1'000'000)) {
+    cyclic = &world.add_cyclic(bus, parameters);
+    node = parameters.node_id;
+  }
+
   /// Runs for `length`; what the drives said is appended to `seen`.
   void run(HostDuration length) { run_to(world.now() + length); }
 
@@ -165,7 +170,8 @@ class WireHost {
 
   World world;
   transport::VirtualCanBus& bus;
-  EposDrive* drive = nullptr;
+  EposDrive* drive = nullptr;     ///< one of the two
+  CyclicDrive* cyclic = nullptr;  ///< the other
   unsigned node = 1;
   std::vector<canopen::ReceivedFrame> seen;
 };

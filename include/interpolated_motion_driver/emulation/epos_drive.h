@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "interpolated_motion_driver/emulation/device.h"
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -39,7 +40,7 @@ struct EposCounters {
 /// Position Mode with its 64-record buffer and 1 kHz cubic interpolation ("EPOS3 Interpolated Position
 /// Mode", 4.2 and 4.3), and an axis with following error. Everything a host can do to it, it does through the
 /// bus; the functions below are for set-up, faults and observation.
-class EposDrive : public transport::CanListener {
+class EposDrive : public Device {
  public:
   using SampleObserver = std::function<void(const EposSample&)>;
 
@@ -81,12 +82,8 @@ class EposDrive : public transport::CanListener {
   /// corrected by SYNC and time stamps, when there are any.)
   void set_clock_error(double ppm);
 
-  /// Time of the drive's next own action (sample, response), kNever when it is off for good.
-  HostTime next_event() const { return next_event_; }
-
-  /// Does what is due at `now`.
-  void process(HostTime now);
-
+  HostTime next_event() const override { return next_event_; }
+  void process(HostTime now) override;
   void on_can_frame(const canopen::Frame& frame, HostTime time) override;
 
  private:

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/cyclic_parameters.h"
+#include "interpolated_motion_driver/emulation/device.h"
 #include "interpolated_motion_driver/emulation/epos_drive.h"
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust.h"
@@ -46,6 +49,8 @@ class World {
   /// valid.
   EposDrive& add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters);
 
+  CyclicDrive& add_cyclic(transport::VirtualCanBus& bus, const CyclicParameters& parameters);
+
   /// A new serial line. Throws std::invalid_argument when the name is taken (by a line or a bus) or a
   /// parameter is out of range. The reference stays valid.
   transport::VirtualSerialLine& add_serial_line(std::string name,
@@ -77,7 +82,8 @@ class World {
  private:
   struct Member {
     transport::VirtualCanBus* bus;
-    std::unique_ptr<EposDrive> drive;
+    std::uint8_t node_id;
+    std::unique_ptr<Device> drive;
   };
 
   struct SerialMember {
@@ -86,6 +92,9 @@ class World {
   };
 
   void require_free_name(const std::string& name) const;
+
+  template <class Drive, class Parameters>
+  Drive& add(transport::VirtualCanBus& bus, const Parameters& parameters);
   std::uint64_t delivered() const;
   void process_events();
 

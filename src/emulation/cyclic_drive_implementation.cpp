@@ -1,0 +1,163 @@
+#include "cyclic_drive_implementation.h"
+
+namespace interpolated_motion::emulation {
+namespace {
+
+constexpr std::int64_t kNoMode = 0;
+constexpr std::int64_t kCyclicSynchronousPosition = 8;
+
+// Statusword bits of CiA 402; 12 and 13 as in the cyclic synchronous position mode.
+constexpr unsigned kRemote = 1U << 9;
+constexpr unsigned kFollowsCommand = 1U << 12;
+constexpr unsigned kFollowingError = 1U << 13;
+
+const CyclicParameters& validated(const CyclicParameters& parameters) {
+  validate(parameters);
+  return parameters;
+}
+
+NodeSettings node_settings(const CyclicParameters& parameters) {
+  NodeSettings settings;
+  settings.node_id = parameters.node_id;
+  settings.device_name = parameters.device_name;
+  settings.clock_error_ppm = parameters.clock_error_ppm;
+  settings.sample_period = parameters.servo_period;
+  settings.sample_phase = parameters.tick_phase;
+  settings.boot_time = parameters.boot_time;
+  settings.sdo_response_time = parameters.sdo_response_time;
+  return settings;
+}
+
+double in_ms(HostDuration d) { return seconds(d) * 1e3; }
+
+// The plant counts time in its own steps, here servo samples.
+PlantParameters in_samples(PlantParameters plant, double servo_ms) {
+  plant.lag_ms /= servo_ms;
+  return plant;
+}
+
+}  // namespace
+
+CyclicDrive::Implementation::Implementation(transport::VirtualCanBus& bus, transport::CanListener& listener,
+                                            const CyclicParameters& parameters, HostTime now)
+    : CanopenNode(bus, listener, node_settings(validated(parameters)), objects_, now),
+      parameters_(parameters),
+      servo_ms_(in_ms(parameters.servo_period)),
+      objects_(parameters_),
+      plant_(in_samples(parameters.plant, servo_ms_), parameters.initial_position) {}
+
+std::int64_t CyclicDrive::Implementation::object(std::uint16_t index, std::uint8_t subindex) const {
+  return objects_.get(kCyclicTable.slot(index, subindex));
+}
+
+void CyclicDrive::Implementation::booted() {
+  device_.reset();
+  error_code_ = 0;
+  plant_.stand();
+  demand_ = {plant_.position(), 0.0, 0.0};
+  configure_interpolation();
+  enter_mode();
+  publish_motion();
+}
+
+void CyclicDrive::Implementation::powered_off() { plant_.stand(); }
+
+void CyclicDrive::Implementation::connection_lost() {
+  switch (object(0x6007, 0)) {
+    case 1:
+      return device_.fault(option_codes());
+    case 2:
+      return device_.disable_voltage();
+    case 3:
+      if (device_.operation_enabled()) device_.quick_stop();
+      return;
+    default:
+      return;
+  }
+}
+
+void CyclicDrive::Implementation::fault(std::uint16_t code, std::uint8_t error_register, HostTime now) {
+  if (!on()) return;
+  emergency(code, error_register, now);
+  error_code_ = code;
+  device_.fault(option_codes());
+  publish_status();
+}
+
+AbortCode CyclicDrive::Implementation::check_value(const ObjectEntry& entry, std::int64_t value) const {
+  const bool mode = entry.index == 0x6060;
+  return mode && value != kNoMode && value != kCyclicSynchronousPosition ? AbortCode::ValueRange
+                                                                         : AbortCode::None;
+}
+
+void CyclicDrive::Implementation::written(const ObjectEntry& entry, std::int64_t value) {
+  switch (entry.index) {
+    case 0x6040:
+      return controlword(static_cast<std::uint16_t>(value));
+    case 0x6060:
+      if (object(0x6061, 0) == value) return;
+      objects_.set(kCyclicObject<0x6061, 0>, value);
+      return enter_mode();
+    case 0x607A:
+      return target_position(static_cast<std::int32_t>(value));
+    case 0x2100:
+    case 0x60C2:
+      return configure_interpolation();
+    default:
+      return;
+  }
+}
+
+void CyclicDrive::Implementation::controlword(std::uint16_t word) {
+  const bool was_in_control = in_control();
+  if (device_.command(word, option_codes())) {
+    error_code_ = 0;
+    reset_errors();
+  }
+  if (in_control() && !was_in_control) enter_mode();
+}
+
+bool CyclicDrive::Implementation::in_control() const {
+  return device_.operation_enabled() && device_.ramp() == StopRamp::None;
+}
+
+void CyclicDrive::Implementation::enter_mode() {
+  interpolation_.enter(demand_.position);
+  following_error_ms_ = 0.0;
+}
+
+void CyclicDrive::Implementation::configure_interpolation() {
+  interpolation_.set_grid(static_cast<double>(object(0x60C2, 1)), parameters_.sync_gain);
+  interpolation_.set_order(static_cast<int>(object(0x2100, 1)));
+}
+
+void CyclicDrive::Implementation::target_position(std::int32_t position) {
+  if (!in_control() || object(0x6061, 0) != kCyclicSynchronousPosition) return;
+  // Where the axis stands by now: it may have been braking when the mode was entered.
+  if (!interpolation_.following()) interpolation_.enter(demand_.position);
+  interpolation_.update(position, own_ms());
+  ++updates_;
+}
+
+OptionCodes CyclicDrive::Implementation::option_codes() const {
+  OptionCodes options;
+  options.shutdown = static_cast<std::int16_t>(object(0x605B, 0));
+  options.disable_operation = static_cast<std::int16_t>(object(0x605C, 0));
+  options.fault_reaction = static_cast<std::int16_t>(object(0x605E, 0));
+  return options;
+}
+
+std::uint16_t CyclicDrive::Implementation::statusword() const {
+  unsigned word = device_.status_bits();
+  if (operational()) word |= kRemote;
+  if (in_control() && interpolation_.following()) word |= kFollowsCommand;
+  if (following_error_) word |= kFollowingError;
+  return static_cast<std::uint16_t>(word);
+}
+
+void CyclicDrive::Implementation::publish_status() {
+  objects_.set(kCyclicObject<0x6041, 0>, statusword());
+  objects_.set(kCyclicObject<0x603F, 0>, error_code_);
+}
+
+}  // namespace interpolated_motion::emulation
