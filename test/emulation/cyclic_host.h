@@ -59,4 +59,14 @@ inline CyclicParameters stiff_cyclic() {
   return parameters;
 }
 
+inline double ms_between(HostTime from, HostTime to) { return seconds(to - from) * 1e3; }
+
+/// Constant velocity of 10 counts/ms, which every order extrapolates exactly.
+inline constexpr int kStep = 100;
+
+/// Demand of that motion: target 100 n takes effect at SYNC n and is reached a period later.
+inline double ramp_demand(const CyclicHost& host, HostTime time) {
+  return 10.0 * ms_between(host.sync_arrival(1), time);
+}
+
 }  // namespace interpolated_motion::emulation
