@@ -481,6 +481,8 @@ void EposAxis::status(HostTime now, AxisStatus& out) const {
   out.clock_error_ppm = clock_.error_ppm();
 }
 
-AxisReport EposAxis::report() const { return {feed_.sent(), minimum_fill_, underruns_ - underruns_at_load_}; }
+AxisReport EposAxis::report() const {
+  return {feed_.sent(), minimum_fill_, underruns_ - underruns_at_load_, refused_writes_ - refused_at_load_};
+}
 
 }  // namespace interpolated_motion::axis

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ constexpr double kHalfSample = 0.5e-3;
 // ---- plan and load
 // -------------------------------------------------------------------------------------------------
 
-std::optional<Refusal> EposAxis::plan(const trajectory::Path& path) {
+std::optional<Refusal> EposAxis::plan(const trajectory::Path& path, GoalTime wait) {
   encoding::PvtEncoding encoding;
   encoding.joint = parameters_.joint;
   encoding.transmission = parameters_.transmission;
@@ -48,6 +49,7 @@ std::optional<Refusal> EposAxis::plan(const trajectory::Path& path) {
   encoding.max_motor_acceleration = facts_.max_acceleration;
   auto stream = encoding::encode_pvt(path, encoding, rest_counts_);
   if (!stream) return stream.error();
+  planned_wait_ = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
   planned_.load(std::move(stream.value()), {facts_.capacity, parameters_.commit_horizon});
   planned_start_ = path.start_time();
   return std::nullopt;
@@ -56,10 +58,12 @@ std::optional<Refusal> EposAxis::plan(const trajectory::Path& path) {
 void EposAxis::load(HostTime now) {
   feed_ = planned_;
   path_start_ = planned_start_;
+  wait_ = planned_wait_;
   finished_ = false;
   load_attempts_ = 0;
   clock_.stop();
   underruns_at_load_ = underruns_;
+  refused_at_load_ = refused_writes_;
   minimum_fill_ = 0;
   start_loading(now);
 }
@@ -134,13 +138,15 @@ void EposAxis::feed(HostTime now) {
 // ---- playing
 // -------------------------------------------------------------------------------------------------------
 
-void EposAxis::arm(HostTime now) {
+void EposAxis::arm(HostTime, HostTime now) {
   if (phase_ != Phase::Loaded) return;
   enter(Phase::Armed, now);
   reports_taken_ = telemetry_.buffer_reports;
   fill_mismatches_ = 0;
   command(cw::kStartInterpolation, now);
 }
+
+HostTime EposAxis::path_begin() const { return clock_.running() ? clock_.host_time(wait_.count()) : kNever; }
 
 /// The drive starts at its first sample after SYNC.
 void EposAxis::start_clock() {

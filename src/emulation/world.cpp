@@ -61,12 +61,6 @@ transport::VirtualSerialLine& World::add_serial_line(std::string name,
 
 SilverDust& World::add_silverdust(transport::VirtualSerialLine& line,
                                   const SilverDustParameters& parameters) {
-  for (const SerialMember& member : serial_members_) {
-    if (member.line == &line && member.drive->parameters().address == parameters.address) {
-      throw std::invalid_argument(
-          fmt::format("line {}: address {} is taken by another drive", line.name(), parameters.address));
-    }
-  }
   validate(parameters);
   serial_members_.push_back({&line, std::make_unique<SilverDust>(line, parameters, now_)});
   return *serial_members_.back().drive;

@@ -104,6 +104,19 @@ PvtCertificate PvtEncoder::certificate_of(const SegmentFigures& figures) const {
           interpolation::rpm_per_second(figures.peak_acceleration, resolution)};
 }
 
+DriveMilliseconds rest_before(DriveMilliseconds rest, PvtStream& stream) {
+  std::vector<PvtRecord> records;
+  for (std::int64_t left = rest.count(); left > 0;) {
+    const std::int64_t time = std::min(left, kMaxRecordTime);
+    records.push_back({stream.start_counts, 0, static_cast<std::uint8_t>(time)});
+    left -= time;
+  }
+  stream.records.insert(stream.records.begin(), records.begin(), records.end());
+  stream.certificates.insert(stream.certificates.begin(), records.size(), PvtCertificate{});
+  stream.duration += rest;
+  return rest;
+}
+
 Expected<PvtStream, Refusal> encode_pvt(const trajectory::Path& path, const PvtEncoding& encoding,
                                         std::int32_t start_counts) {
   PvtEncoder encoder(path, encoding, {0, start_counts, 0});

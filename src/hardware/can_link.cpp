@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/hardware/can_link.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace interpolated_motion::hardware {
 
@@ -29,7 +30,7 @@ CanLink::CanLink(const BusConfiguration& configuration, transport::CanBus& bus)
 
 void CanLink::receive(const WireObserver& observer) {
   while (const auto received = bus_.receive()) {
-    if (observer) observer(name(), *received);
+    if (observer.frame) observer.frame(name(), *received);
     ++(received->own ? sent_ : received_);
     master_.on_frame(*received);
   }
@@ -49,6 +50,15 @@ motion::BusSnapshot CanLink::snapshot() const {
     snapshot.unexpected += master_.unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
   }
   return snapshot;
+}
+
+std::vector<std::string> CanLink::unexpected_traffic() const {
+  std::vector<std::string> texts;
+  for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause) {
+    std::string text = master_.unexpected_text(static_cast<canopen::UnexpectedFrame>(cause));
+    if (!text.empty()) texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 double CanLink::record_bus_time() const {

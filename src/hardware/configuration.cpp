@@ -9,6 +9,7 @@
 
 #include "interpolated_motion_driver/hardware/emulation_configuration.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
+#include "interpolated_motion_driver/hardware/silverlode_configuration.h"
 
 namespace interpolated_motion::hardware {
 
@@ -30,12 +31,7 @@ const std::vector<std::pair<std::string, std::uint32_t>> kBitrates = {
     {"1000000", 1000000}, {"800000", 800000}, {"500000", 500000}, {"250000", 250000},
     {"125000", 125000},   {"50000", 50000},   {"20000", 20000}};
 
-BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
-  BusConfiguration bus;
-  bus.name = name;
-  reader.choice<int>("type", 0, {{"canopen", 0}});
-  bus.transport =
-      reader.choice("transport", TransportKind::Emulated, {{"emulated", TransportKind::Emulated}});
+void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
   bus.bitrate = reader.choice("bitrate", bus.bitrate, kBitrates);
   bus.sync_period = reader.number("sync_period", bus.sync_period, 0.001, 0.1);
   bus.heartbeat_period = reader.number("heartbeat_period", bus.heartbeat_period, 0.01, 10.0);
@@ -49,6 +45,20 @@ BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
   bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);
   bus.clock_discipline = reader.boolean("clock_discipline", bus.clock_discipline);
   bus.sdo_timeout = reader.number("sdo_timeout", bus.sdo_timeout, 0.01, 10.0);
+}
+
+BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
+  BusConfiguration bus;
+  bus.name = name;
+  bus.type =
+      reader.choice("type", bus.type, {{"canopen", BusType::Canopen}, {"silverlode", BusType::Silverlode}});
+  bus.transport =
+      reader.choice("transport", TransportKind::Emulated, {{"emulated", TransportKind::Emulated}});
+  if (bus.type == BusType::Canopen) {
+    parse_can_bus(reader, bus);
+  } else {
+    parse_serial_line(reader, bus);
+  }
   reader.refuse_unknown();
   return bus;
 }
@@ -102,18 +112,26 @@ encoding::Transmission parse_transmission(ParameterReader& reader) {
   return transmission;
 }
 
+/// Counts, of the drive's demand from the path.
+double default_bound(DriveType type) { return type == DriveType::EposIpm ? 1.0 : 2.0; }
+
 DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader, const Urdf& urdf) {
   DriveConfiguration drive;
   drive.joint = joint;
   drive.bus = reader.required_text("bus");
-  reader.choice<int>("type", 0, {{"epos_ipm", 0}});
-  drive.node_id = static_cast<int>(reader.required_integer("node_id", 1, 127));
+  drive.type = reader.choice(
+      "type", drive.type, {{"epos_ipm", DriveType::EposIpm}, {"silverlode_ims", DriveType::SilverlodeIms}});
   drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
-  drive.deviation_bound = reader.number("deviation_bound", drive.deviation_bound, 0.6, 1000.0);
+  drive.deviation_bound = reader.number("deviation_bound", default_bound(drive.type), 0.6, 1000.0);
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
-  drive.emulation = parse_emulation(reader.map("emulation"), drive);
+  if (drive.type == DriveType::EposIpm) {
+    drive.node_id = static_cast<int>(reader.required_integer("node_id", 1, 127));
+    drive.emulation = parse_emulation(reader.map("emulation"), drive);
+  } else {
+    parse_silverlode_drive(reader, drive);
+  }
   reader.refuse_unknown();
   return drive;
 }
@@ -134,26 +152,44 @@ ConstraintConfiguration parse_constraints(ParameterReader reader, const std::vec
   return constraints;
 }
 
+const BusConfiguration& bus_of(const DriveConfiguration& drive, const Configuration& configuration) {
+  const auto found = std::find_if(configuration.buses.begin(), configuration.buses.end(),
+                                  [&drive](const BusConfiguration& bus) { return bus.name == drive.bus; });
+  if (found == configuration.buses.end()) {
+    throw std::invalid_argument(
+        fmt::format("Parameter drives/{}/bus is \"{}\", which is not among buses. Add it there or "
+                    "correct the name.",
+                    drive.joint, drive.bus));
+  }
+  return *found;
+}
+
+void check_type(const DriveConfiguration& drive, const BusConfiguration& bus) {
+  const bool is_can = bus.type == BusType::Canopen;
+  if (is_can == (drive.type == DriveType::EposIpm)) return;
+  throw std::invalid_argument(fmt::format(
+      "Parameter drives/{}/bus is \"{}\", whose type is {}; a drive of type {} needs a bus of type {}.",
+      drive.joint, drive.bus, is_can ? "canopen" : "silverlode", is_can ? "silverlode_ims" : "epos_ipm",
+      is_can ? "silverlode" : "canopen"));
+}
+
+/// Node ids and addresses: one owner each.
 void check_nodes(const Configuration& configuration) {
   std::map<std::pair<std::string, int>, std::string> owners;
-  std::map<std::string, int> hosts;
   for (const BusConfiguration& bus : configuration.buses) {
-    hosts[bus.name] = bus.host_node_id;
-    owners[{bus.name, bus.host_node_id}] = "the host (host_node_id)";
+    if (bus.type == BusType::Canopen) owners[{bus.name, bus.host_node_id}] = "the host (host_node_id)";
   }
   for (const DriveConfiguration& drive : configuration.drives) {
-    if (hosts.count(drive.bus) == 0) {
-      throw std::invalid_argument(
-          fmt::format("Parameter drives/{}/bus is \"{}\", which is not among buses. Add it there or "
-                      "correct the name.",
-                      drive.joint, drive.bus));
-    }
-    const auto [owner, free] = owners.insert({{drive.bus, drive.node_id}, "joint " + drive.joint});
+    check_type(drive, bus_of(drive, configuration));
+    const bool is_can = drive.type == DriveType::EposIpm;
+    const int number = is_can ? drive.node_id : drive.silverlode.address;
+    const auto [owner, free] = owners.insert({{drive.bus, number}, "joint " + drive.joint});
     if (!free) {
       throw std::invalid_argument(
-          fmt::format("Parameter drives/{}/node_id is {}, which {} has on bus {} already. Every drive of a "
-                      "bus needs a node id of its own, 1..127.",
-                      drive.joint, drive.node_id, owner->second, drive.bus));
+          fmt::format("Parameter drives/{}/{} is {}, which {} has on bus {} already. Every drive of a "
+                      "bus needs {} of its own, 1..{}.",
+                      drive.joint, is_can ? "node_id" : "address", number, owner->second, drive.bus,
+                      is_can ? "a node id" : "an address", is_can ? 127 : 254));
     }
   }
 }
@@ -170,6 +206,7 @@ double background_load(const BusConfiguration& bus, std::size_t drives) {
 
 void check_background_load(const Configuration& configuration) {
   for (const BusConfiguration& bus : configuration.buses) {
+    if (bus.type != BusType::Canopen) continue;
     const auto drives = static_cast<std::size_t>(
         std::count_if(configuration.drives.begin(), configuration.drives.end(),
                       [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; }));

@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/hardware/fault_injection.h"
 
 #include <cstdlib>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -75,6 +76,63 @@ bool inject_bus_fault(transport::VirtualCanBus& bus, const std::string& text, Ho
     bus.host_bus_off(now + host_duration(command.numbers[0]));
   } else {
     return unknown(text, "drop COUNT, drop_id ID COUNT, disconnect 0|1, bus_off SECONDS", reason);
+  }
+  return true;
+}
+
+bool inject_drive_fault(emulation::SilverDust& drive, const std::string& text, HostTime now,
+                        std::string* reason) {
+  using emulation::SilverDustFault;
+  static const std::map<std::string, SilverDustFault> kFaults{
+      {"fault over_temperature", SilverDustFault::OverTemperature},
+      {"fault over_voltage", SilverDustFault::OverVoltage},
+      {"fault low_voltage", SilverDustFault::LowVoltage},
+      {"fault moving_error", SilverDustFault::MovingError},
+      {"fault holding_error", SilverDustFault::HoldingError}};
+  const Command command = parse(text);
+  if (const auto fault = kFaults.find(text); fault != kFaults.end()) {
+    drive.raise_fault(fault->second, now);
+  } else if (command.is("power_cycle", 1)) {
+    drive.power_cycle(now, host_duration(command.numbers[0]));
+  } else if (command.is("stall", 1)) {
+    drive.stall(command.numbers[0] != 0.0);
+  } else if (command.is("silence", 1)) {
+    drive.silence(command.numbers[0] != 0.0, now);
+  } else if (command.is("clock", 1)) {
+    drive.set_clock_error(command.numbers[0]);
+  } else {
+    return unknown(text,
+                   "fault over_temperature|over_voltage|low_voltage|moving_error|holding_error, power_cycle "
+                   "SECONDS, stall 0|1, silence 0|1, clock PPM",
+                   reason);
+  }
+  return true;
+}
+
+bool inject_line_fault(transport::VirtualSerialLine& line, const std::string& text, HostTime now,
+                       std::string* reason) {
+  using transport::SerialDirection;
+  constexpr int kHostPort = 0;
+  const std::string garbage = "garbage ";
+  const Command command = parse(text);
+  const int count = command.numbers.empty() ? 0 : static_cast<int>(command.numbers[0]);
+  if (command.is("lose_requests", 1)) {
+    line.lose_next(SerialDirection::HostToDrive, count);
+  } else if (command.is("lose_replies", 1)) {
+    line.lose_next(SerialDirection::DriveToHost, count);
+  } else if (command.is("garble_requests", 1)) {
+    line.garble_next(SerialDirection::HostToDrive, count);
+  } else if (command.is("garble_replies", 1)) {
+    line.garble_next(SerialDirection::DriveToHost, count);
+  } else if (text.compare(0, garbage.size(), garbage) == 0) {
+    line.inject(SerialDirection::DriveToHost, text.substr(garbage.size()), now);
+  } else if (command.is("disconnect", 1)) {
+    line.connect(kHostPort, count == 0, now);
+  } else {
+    return unknown(text,
+                   "lose_requests COUNT, lose_replies COUNT, garble_requests COUNT, garble_replies COUNT, "
+                   "garbage TEXT, disconnect 0|1",
+                   reason);
   }
   return true;
 }

@@ -1,17 +1,12 @@
 #include "interpolated_motion_driver/hardware/motion_hardware.h"
 
 #include <algorithm>
-#include <map>
-#include <stdexcept>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/axis/epos_axis.h"
-#include "interpolated_motion_driver/emulation/world.h"
-#include "interpolated_motion_driver/hardware/can_link.h"
-#include "interpolated_motion_driver/hardware/fault_injection.h"
-#include "interpolated_motion_driver/hardware/path_audit.h"
+#include "interpolated_motion_driver/hardware/assembly.h"
 #include "interpolated_motion_driver/motion/group.h"
 
 namespace interpolated_motion::hardware {
@@ -23,25 +18,6 @@ namespace {
 constexpr double kLeadInCounts = 0.5;
 /// Shortest step of the loop: deadlines that lie closer together are served together.
 constexpr HostDuration kShortestStep = std::chrono::microseconds(50);
-
-axis::EposAxisParameters axis_parameters(const Configuration& configuration, const DriveConfiguration& drive,
-                                         const BusConfiguration& bus, double record_bus_time) {
-  axis::EposAxisParameters parameters;
-  parameters.joint = drive.joint;
-  parameters.transmission = drive.transmission;
-  parameters.limits = drive.limits;
-  parameters.deviation_bound = drive.deviation_bound;
-  parameters.limit_margin = drive.limit_margin;
-  parameters.max_following_error = drive.max_following_error;
-  parameters.commit_horizon = configuration.commit_horizon;
-  parameters.record_bus_time = record_bus_time;
-  parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
-  parameters.clock_discipline = bus.clock_discipline;
-  parameters.heartbeat_period = host_duration(bus.heartbeat_period);
-  parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
-  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
-  return parameters;
-}
 
 motion::GroupParameters group_parameters(const Configuration& configuration) {
   motion::GroupParameters parameters;
@@ -75,19 +51,13 @@ class MotionHardware::Implementation {
   void update(HostTime now);
   HostTime next_deadline() const;
   void refresh_handles();
-  bool inject(const std::string& target, const std::string& command, std::string* reason);
 
   HostTime now;
-  emulation::World world;
-  std::vector<std::unique_ptr<CanLink>> links;
-  std::vector<std::unique_ptr<axis::EposAxis>> axes;
-  std::vector<emulation::EposDrive*> drives;  ///< one per joint; null where there is none
-  std::vector<PathAudit> audits;
+  Assembly assembly;
   std::optional<motion::Group> group;
   std::vector<JointHandle> handles;
   EventLog log;
   WireObserver wire_observer;
-  std::function<void(std::size_t, const emulation::EposSample&)> sample_observer;
 
  private:
   struct JointValues {
@@ -96,70 +66,31 @@ class MotionHardware::Implementation {
     double demand = 0.0;
   };
 
-  void add_bus(const BusConfiguration& bus);
-  void add_drive(const Configuration& configuration, const DriveConfiguration& drive);
-  void take_sample(std::size_t joint, const emulation::EposSample& sample);
   void step(HostTime time);
   void follow_group();
   void begin_audit();
   void log_state_change(motion::GroupState before);
-  void log_unexpected_frames();
-  CanLink& link(const std::string& name);
+  void log_unexpected_traffic();
 
-  std::map<std::string, BusConfiguration> buses_;
-  std::map<std::string, transport::VirtualCanBus*> virtual_buses_;
   std::vector<JointValues> values_;
   motion::GroupState seen_state_ = motion::GroupState::Starting;
-  motion::GoalId audited_goal_ = 0;
   std::vector<std::uint64_t> unexpected_;
 };
 
 MotionHardware::Implementation::Implementation(const Configuration& configuration, HostTime start)
-    : now(start), world(start), values_(configuration.drives.size()) {
-  for (const BusConfiguration& bus : configuration.buses) add_bus(bus);
-  audits.reserve(configuration.drives.size());
-  for (const DriveConfiguration& drive : configuration.drives) add_drive(configuration, drive);
+    : now(start),
+      assembly(configuration, start),
+      values_(configuration.drives.size()),
+      unexpected_(assembly.links().size()) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    handles.push_back(
+        {configuration.drives[i].joint, &values_[i].position, &values_[i].velocity, &values_[i].demand});
+  }
   std::vector<axis::Axis*> members;
-  for (const auto& axis : axes) members.push_back(axis.get());
+  for (const auto& axis : assembly.axes()) members.push_back(axis.get());
   std::vector<axis::StartSignal*> signals;
-  for (const auto& bus : links) signals.push_back(bus.get());
+  for (const auto& link : assembly.links()) signals.push_back(link.get());
   group.emplace(group_parameters(configuration), std::move(members), std::move(signals), now);
-  unexpected_.resize(links.size());
-}
-
-void MotionHardware::Implementation::add_bus(const BusConfiguration& bus) {
-  virtual_buses_[bus.name] = &world.add_can_bus(bus.name, static_cast<int>(bus.bitrate));
-  links.push_back(std::make_unique<CanLink>(bus, world.can_bus(bus.name)));
-  buses_[bus.name] = bus;
-}
-
-void MotionHardware::Implementation::add_drive(const Configuration& configuration,
-                                               const DriveConfiguration& drive) {
-  CanLink& bus = link(drive.bus);
-  canopen::NodeLink& node = bus.master().add_node(static_cast<std::uint8_t>(drive.node_id));
-  axes.push_back(std::make_unique<axis::EposAxis>(
-      axis_parameters(configuration, drive, buses_.at(drive.bus), bus.record_bus_time()), bus.master(),
-      node));
-  const std::size_t index = audits.size();
-  audits.emplace_back(drive.transmission);
-  handles.push_back(
-      {drive.joint, &values_[index].position, &values_[index].velocity, &values_[index].demand});
-  drives.push_back(nullptr);
-  if (drive.emulation.missing) return;
-  drives.back() = &world.add_epos(*virtual_buses_.at(drive.bus), drive.emulation.drive);
-  drives.back()->set_sample_observer(
-      [this, index](const emulation::EposSample& sample) { take_sample(index, sample); });
-}
-
-void MotionHardware::Implementation::take_sample(std::size_t joint, const emulation::EposSample& sample) {
-  audits[joint].add(sample);
-  if (sample_observer) sample_observer(joint, sample);
-}
-
-CanLink& MotionHardware::Implementation::link(const std::string& name) {
-  const auto found =
-      std::find_if(links.begin(), links.end(), [&name](const auto& l) { return l->name() == name; });
-  return **found;
 }
 
 // Emulated drives and the driver take turns in the order of virtual time: the driver runs at each frame and
@@ -168,25 +99,25 @@ CanLink& MotionHardware::Implementation::link(const std::string& name) {
 void MotionHardware::Implementation::update(HostTime until) {
   do {
     const HostTime next = std::min(until, std::max(next_deadline(), now + kShortestStep));
-    step(world.advance(next));
+    step(assembly.world().advance(next));
   } while (now < until);
   refresh_handles();
 }
 
 void MotionHardware::Implementation::step(HostTime time) {
   now = time;
-  for (const auto& link : links) {
+  for (const auto& link : assembly.links()) {
     link->receive(wire_observer);
-    link->master().poll(now);
+    link->poll(now);
   }
   group->poll(now);
   follow_group();
-  for (const auto& link : links) link->send(now);
+  for (const auto& link : assembly.links()) link->send(now);
 }
 
 HostTime MotionHardware::Implementation::next_deadline() const {
   HostTime next = group->next_deadline();
-  for (const auto& link : links) next = std::min(next, link->master().next_deadline());
+  for (const auto& link : assembly.links()) next = std::min(next, link->next_deadline());
   return next;
 }
 
@@ -196,15 +127,15 @@ void MotionHardware::Implementation::follow_group() {
   const motion::GroupState before = std::exchange(seen_state_, state);
   if (state == motion::GroupState::Moving) begin_audit();
   if (state != motion::GroupState::Moving && state != motion::GroupState::Settling) {
-    for (PathAudit& audit : audits) audit.end();
+    assembly.end_audits();
   }
   log_state_change(before);
 }
 
 void MotionHardware::Implementation::begin_audit() {
   const motion::ActiveGoal* goal = group->last_goal();
-  for (std::size_t i = 0; i < audits.size(); ++i) audits[i].begin(goal->plan.paths[i]);
-  for (const auto& link : links) link->reset_peak_load();
+  assembly.begin_audits(goal->plan.paths);
+  for (const auto& link : assembly.links()) link->reset_peak_load();
 }
 
 void MotionHardware::Implementation::log_state_change(motion::GroupState before) {
@@ -216,43 +147,28 @@ void MotionHardware::Implementation::log_state_change(motion::GroupState before)
             fmt::format("group: {} -> {}", motion::to_string(before), motion::to_string(state)));
   }
   if (before == motion::GroupState::Starting && state != motion::GroupState::Fault) {
-    for (const auto& axis : axes) log.add(Severity::Info, axis->description());
+    for (const auto& axis : assembly.axes()) log.add(Severity::Info, axis->description());
   }
-  log_unexpected_frames();
+  log_unexpected_traffic();
 }
 
-void MotionHardware::Implementation::log_unexpected_frames() {
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const std::uint64_t count = links[i]->snapshot().unexpected;
+void MotionHardware::Implementation::log_unexpected_traffic() {
+  for (std::size_t i = 0; i < unexpected_.size(); ++i) {
+    const BusLink& link = *assembly.links()[i];
+    const std::uint64_t count = link.snapshot().unexpected;
     if (count == std::exchange(unexpected_[i], count)) continue;
-    for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause) {
-      const std::string text =
-          links[i]->master().unexpected_text(static_cast<canopen::UnexpectedFrame>(cause));
-      if (!text.empty()) log.add(Severity::Warning, text);
-    }
+    for (std::string& text : link.unexpected_traffic()) log.add(Severity::Warning, std::move(text));
   }
 }
 
 void MotionHardware::Implementation::refresh_handles() {
   axis::AxisStatus status;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const axis::AxisFeedback& feedback = axes[i]->feedback();
-    axes[i]->status(now, status);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const axis::Axis& axis = *assembly.axes()[i];
+    const axis::AxisFeedback& feedback = axis.feedback();
+    axis.status(now, status);
     values_[i] = {feedback.position, feedback.velocity, status.demand_position};
   }
-}
-
-bool MotionHardware::Implementation::inject(const std::string& target, const std::string& command,
-                                            std::string* reason) {
-  if (const auto bus = virtual_buses_.find(target); bus != virtual_buses_.end()) {
-    return inject_bus_fault(*bus->second, command, now, reason);
-  }
-  for (std::size_t i = 0; i < handles.size(); ++i) {
-    if (handles[i].name == target && drives[i] != nullptr)
-      return inject_drive_fault(*drives[i], command, now, reason);
-  }
-  *reason = fmt::format("\"{}\" is neither a joint with an emulated drive nor an emulated bus", target);
-  return false;
 }
 
 // ---- the interface
@@ -307,18 +223,18 @@ std::optional<motion::RequestResult> MotionHardware::take_request_result() {
 void MotionHardware::snapshot(motion::Snapshot& out) const {
   implementation_->group->snapshot(implementation_->now, out);
   out.buses.clear();
-  for (const auto& link : implementation_->links) out.buses.push_back(link->snapshot());
+  for (const auto& link : implementation_->assembly.links()) out.buses.push_back(link->snapshot());
 }
 
 motion::MotionReport MotionHardware::report() const {
   motion::MotionReport report = implementation_->group->report();
   for (std::size_t i = 0; i < report.joints.size(); ++i) {
-    const PathAudit& audit = implementation_->audits[i];
+    const PathAudit& audit = implementation_->assembly.audits()[i];
     report.joints[i].samples = audit.samples();
     report.joints[i].worst_deviation = audit.worst_deviation();
     report.joints[i].final_deviation = audit.final_deviation();
   }
-  for (const auto& link : implementation_->links)
+  for (const auto& link : implementation_->assembly.links())
     report.peak_bus_load.emplace_back(link->name(), link->peak_load());
   return report;
 }
@@ -333,14 +249,13 @@ void MotionHardware::set_wire_observer(WireObserver observer) {
   implementation_->wire_observer = std::move(observer);
 }
 
-void MotionHardware::set_sample_observer(
-    std::function<void(std::size_t, const emulation::EposSample&)> observer) {
-  implementation_->sample_observer = std::move(observer);
+void MotionHardware::set_sample_observer(SampleObserver observer) {
+  implementation_->assembly.set_sample_observer(std::move(observer));
 }
 
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,
                             HostTime) {
-  return implementation_->inject(target, command, reason);
+  return implementation_->assembly.inject(target, command, implementation_->now, reason);
 }
 
 }  // namespace interpolated_motion::hardware

@@ -13,10 +13,10 @@ void PathAudit::begin(const trajectory::Path& path) {
   final_ = 0.0;
 }
 
-void PathAudit::add(const emulation::EposSample& sample) {
-  if (!comparing_ || !sample.interpolating) return;
-  const GoalTime time = path_.start_time() + GoalTime{static_cast<double>(sample.samples_since_start) * 1e-3};
-  final_ = std::abs(sample.demand - transmission_.counts(path_.sample(time).position));
+void PathAudit::add(double drive_seconds, double demand) {
+  if (!comparing_) return;
+  const GoalTime time = axis_->goal_time_at(drive_seconds);
+  final_ = std::abs(demand - transmission_.counts(path_.sample(time).position));
   worst_ = std::max(worst_, final_);
   ++samples_;
 }

@@ -100,6 +100,7 @@ void Group::poll_preparing(HostTime now) {
 
 void Group::poll_moving(HostTime now) {
   if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (!active_->begin_is_set) set_common_begin(now);
   if (auto violation = find_path_violation()) return stop(now, {GoalOutcome::Aborted, *violation});
   const auto played = [](const axis::Axis* a) { return a->finished() && a->state() == AxisState::Ready; };
   if (!std::all_of(axes_.begin(), axes_.end(), played)) return;

@@ -11,6 +11,15 @@
 
 namespace interpolated_motion::motion {
 
+namespace {
+
+/// Longest from the start signal to the host's knowing when it was on the bus, a stall of the host included.
+constexpr GoalTime kSignalAllowance{0.1};
+
+bool begins_at_signal(const axis::Axis& axis) { return axis.start_lead() == GoalTime{0.0}; }
+
+}  // namespace
+
 Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, HostTime now) {
   const auto& rules = parameters_.rules;
   if (auto refusal = trajectory::validate_goal(goal, rules.joints, rules.allow_partial_joints))
@@ -85,8 +94,9 @@ Expected<trajectory::GoalPlan, Refusal> Group::plan(const trajectory::Goal& goal
 }
 
 std::optional<Refusal> Group::plan_axes(const trajectory::GoalPlan& plan) {
+  const GoalTime wait = wait_after_signal();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (auto refusal = axes_[i]->plan(plan.paths[i])) return refusal;
+    if (auto refusal = axes_[i]->plan(plan.paths[i], wait)) return refusal;
   }
   return std::nullopt;
 }
@@ -128,12 +138,42 @@ void Group::start_pending(HostTime now) {
 }
 
 void Group::start_motion(HostTime now) {
-  for (axis::Axis* axis : axes_) axis->arm(now);
+  for (axis::Axis* axis : axes_) {
+    if (begins_at_signal(*axis)) axis->arm(now, now);
+  }
   signal_all(now);
   active_->started = now;
   in_force_since_ = now;
+  set_common_begin(now);
   last_ = active_;
   enter(GroupState::Moving);
+}
+
+/// Tells the axes that need a lead when to begin: when those do that have got the start signal.
+void Group::set_common_begin(HostTime now) {
+  HostTime begin = now + host_duration(longest_lead().count());
+  if (std::any_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return begins_at_signal(*a); })) {
+    begin = HostTime::min();
+    for (const axis::Axis* axis : axes_) {
+      if (begins_at_signal(*axis)) begin = std::max(begin, axis->path_begin());
+    }
+    if (begin == kNever) return;
+  }
+  for (axis::Axis* axis : axes_) {
+    if (!begins_at_signal(*axis)) axis->arm(begin, now);
+  }
+  active_->begin_is_set = true;
+}
+
+GoalTime Group::longest_lead() const {
+  GoalTime longest{0.0};
+  for (const axis::Axis* axis : axes_) longest = std::max(longest, axis->start_lead());
+  return longest;
+}
+
+GoalTime Group::wait_after_signal() const {
+  const GoalTime lead = longest_lead();
+  return lead > GoalTime{0.0} ? lead + kSignalAllowance : lead;
 }
 
 void Group::finish_goal(const Ending& ending) {

@@ -83,7 +83,7 @@ MotionReport Group::report() const {
   for (const axis::Axis* axis : axes_) {
     const axis::AxisReport figures = axis->report();
     report.joints.push_back({axis->joint(), axis->bus(), figures.records_sent, figures.minimum_fill,
-                             figures.underruns, 0, 0.0, 0.0});
+                             figures.underruns, figures.refused_writes, 0, 0.0, 0.0});
   }
   return report;
 }

@@ -53,9 +53,10 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
 std::unique_ptr<HardwareThread> DriverNode::start_hardware(const LoadedConfiguration& configuration) {
   auto hardware = std::make_unique<hardware::MotionHardware>(configuration.driver, host_now());
   if (wire_log_) {
-    hardware->set_wire_observer([this](const std::string& bus, const canopen::ReceivedFrame& frame) {
-      wire_log_->append(bus, frame);
-    });
+    const auto append = [this](const std::string& bus, const auto& traffic) {
+      wire_log_->append(bus, traffic);
+    };
+    hardware->set_wire_observer({append, append});
   }
   const HardwareThread::Settings settings{host_duration(configuration.node.loop_period),
                                           configuration.node.realtime_priority};

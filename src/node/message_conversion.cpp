@@ -168,6 +168,7 @@ void fill_motion_report(const motion::MotionReport& report,
     response.final_deviation.push_back(compared ? joint.final_deviation : kUnknown);
     response.minimum_fill.push_back(joint.minimum_fill);
     response.underruns.push_back(joint.underruns);
+    response.refused_writes.push_back(joint.refused_writes);
   }
   for (const auto& [bus, load] : report.peak_bus_load) {
     response.bus_name.push_back(bus);

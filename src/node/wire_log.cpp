@@ -19,12 +19,23 @@ namespace {
 constexpr std::size_t kQueueLength = 16384;
 constexpr auto kWritePeriod = std::chrono::milliseconds(50);
 
+std::string stamp(HostDuration time) {
+  const auto microseconds = std::chrono::duration_cast<std::chrono::microseconds>(time).count();
+  return fmt::format("({}.{:06})", microseconds / 1'000'000, microseconds % 1'000'000);
+}
+
+bool is_printable(char c) { return c >= ' ' && c <= '~'; }
+
 }  // namespace
 
 std::string candump_line(const std::string& bus, const canopen::Frame& frame, HostDuration time) {
-  const auto microseconds = std::chrono::duration_cast<std::chrono::microseconds>(time).count();
-  return fmt::format("({}.{:06}) {} {}\n", microseconds / 1'000'000, microseconds % 1'000'000, bus,
-                     canopen::to_string(frame));
+  return fmt::format("{} {} {}\n", stamp(time), bus, canopen::to_string(frame));
+}
+
+std::string serial_line(const std::string& bus, bool from_host, std::string_view text, HostDuration time) {
+  std::string line = fmt::format("{} {} {} ", stamp(time), bus, from_host ? '>' : '<');
+  for (const char c : text) line += is_printable(c) ? std::string(1, c) : fmt::format("\\x{:02X}", c & 0xFF);
+  return line + '\n';
 }
 
 WireLog::WireLog(const std::string& path, HostDuration offset, std::vector<std::string> buses)
@@ -46,13 +57,21 @@ WireLog::~WireLog() {
   thread_.join();
 }
 
-void WireLog::append(const std::string& bus, const canopen::ReceivedFrame& frame) {
+void WireLog::append(const std::string& bus, const canopen::ReceivedFrame& frame) { queue(bus, frame); }
+
+void WireLog::append(const std::string& bus, const hardware::SerialText& text) {
+  Text copy{{}, std::min(text.text.size(), kLongestText), text.time, text.from_host};
+  std::copy_n(text.text.begin(), copy.length, copy.characters.begin());
+  queue(bus, copy);
+}
+
+void WireLog::queue(const std::string& bus, const Traffic& traffic) {
   const auto known = std::find(buses_.begin(), buses_.end(), bus);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (known == buses_.end() || queue_.size() == kQueueLength) {
     ++lost_;
   } else {
-    queue_.push_back({static_cast<std::size_t>(known - buses_.begin()), frame});
+    queue_.push_back({static_cast<std::size_t>(known - buses_.begin()), traffic});
   }
 }
 
@@ -75,13 +94,19 @@ void WireLog::run() {
   }
 }
 
+std::string WireLog::line_of(const Entry& entry) const {
+  const std::string& bus = buses_[entry.bus];
+  if (const auto* received = std::get_if<canopen::ReceivedFrame>(&entry.traffic))
+    return candump_line(bus, received->frame, received->time.time_since_epoch() + offset_);
+  const Text& text = std::get<Text>(entry.traffic);
+  return serial_line(bus, text.from_host, {text.characters.data(), text.length},
+                     text.time.time_since_epoch() + offset_);
+}
+
 void WireLog::write(const std::vector<Entry>& entries) {
   std::uint64_t failed = 0;
   for (const Entry& entry : entries) {
-    const std::string& bus = buses_[entry.bus];
-    const std::string line =
-        candump_line(bus, entry.frame.frame, entry.frame.time.time_since_epoch() + offset_);
-    if (std::fputs(line.c_str(), file_.get()) < 0) ++failed;
+    if (std::fputs(line_of(entry).c_str(), file_.get()) < 0) ++failed;
   }
   if (std::fflush(file_.get()) != 0) failed = entries.size();
   if (failed == 0) return;

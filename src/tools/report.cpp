@@ -7,7 +7,9 @@
 namespace interpolated_motion::tools {
 namespace {
 
-std::string counts(double value) { return std::isnan(value) ? "unknown" : fmt::format("{:.3f} qc", value); }
+std::string counts(double value) {
+  return std::isnan(value) ? "unknown" : fmt::format("{:.3f} counts", value);
+}
 
 }  // namespace
 
@@ -16,10 +18,11 @@ std::string report_text(const interpolated_motion_driver::GetMotionReport::Respo
   std::string text;
   for (std::size_t i = 0; i < report.name.size(); ++i) {
     text += fmt::format(
-        "{}  bus {}  records sent {}  worst deviation {}  final deviation {}  buffer minimum {}  underruns "
-        "{}\n",
-        report.name[i], report.bus[i], report.records_sent[i], counts(report.worst_deviation[i]),
-        counts(report.final_deviation[i]), report.minimum_fill[i], report.underruns[i]);
+        "{}  bus {}  records sent {}  refused {}  worst deviation {}  final deviation {}  buffer minimum {}  "
+        "underruns {}\n",
+        report.name[i], report.bus[i], report.records_sent[i], report.refused_writes[i],
+        counts(report.worst_deviation[i]), counts(report.final_deviation[i]), report.minimum_fill[i],
+        report.underruns[i]);
   }
   for (std::size_t i = 0; i < report.bus_name.size(); ++i) {
     text += fmt::format("bus {}  peak load {:.1f} %\n", report.bus_name[i], 100.0 * report.peak_bus_load[i]);

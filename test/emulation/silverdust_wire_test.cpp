@@ -301,8 +301,6 @@ TEST(SilverDustWire, WrongSettingsAreRefusedByName) {
   EXPECT_THROW(world.add_serial_line("line0"), std::invalid_argument);
   EXPECT_THROW(world.add_can_bus("line0", 1'000'000), std::invalid_argument);
   EXPECT_THROW(world.serial_line("line1"), std::invalid_argument);
-  world.add_silverdust(line, {});
-  EXPECT_THROW(world.add_silverdust(line, {}), std::invalid_argument);
   SilverDustParameters parameters;
   parameters.address = 255;
   try {

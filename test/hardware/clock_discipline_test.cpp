@@ -176,9 +176,10 @@ int time_stamps_in_a_second(const std::string& bus) {
   Scenario scenario(arm_of(2, "{buses: {can0: " + bus + "}}"));
   EXPECT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
   int count = 0;
-  scenario.driver().set_wire_observer([&count](const std::string&, const canopen::ReceivedFrame& received) {
+  const auto count_stamps = [&count](const std::string&, const canopen::ReceivedFrame& received) {
     count += received.frame.id == kTimeStampId ? 1 : 0;
-  });
+  };
+  scenario.driver().set_wire_observer({count_stamps, {}});
   scenario.run(1.0);
   return count;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hardware/scenario.h"
-#include "interpolated_motion_driver/emulation/epos_drive.h"
 
 namespace interpolated_motion::test {
 
@@ -46,12 +45,12 @@ class Playback {
   };
 
   Playback(Scenario& scenario, std::size_t joints) : drives_(joints) {
-    scenario.driver().set_sample_observer([this](std::size_t joint, const emulation::EposSample& sample) {
-      if (!sample.interpolating) return;
+    scenario.driver().set_sample_observer([this](std::size_t joint, const hardware::DemandSample& sample) {
       Drive& drive = drives_[joint];
-      if (sample.samples_since_start == 0) drive.started = sample.time;
+      const auto samples = std::lround(1e3 * sample.drive_seconds);
+      if (samples == 0) drive.started = sample.time;
       drive.time = sample.time;
-      drive.samples = sample.samples_since_start;
+      drive.samples = samples;
     });
   }
 

@@ -82,6 +82,35 @@ YAML::Node arm_of(int count, const std::string& changes) {
 
 YAML::Node six_axis(const std::string& changes) { return arm_of(6, changes); }
 
+YAML::Node silverlode_drive(const std::string& line, int address) {
+  return YAML::Load(fmt::format(
+      "{{bus: {}, type: silverlode_ims, address: {}, counts_per_revolution: 4000, gear_ratio: 50, "
+      "limits: {{max_acceleration: 20}}}}",
+      line, address));
+}
+
+YAML::Node six_axis_silverlode(const std::string& changes) {
+  YAML::Node yaml = YAML::Load("{buses: {line0: {type: silverlode}, line1: {type: silverlode}}}");
+  for (int i = 1; i <= 6; ++i) {
+    const std::string joint = fmt::format("joint{}", i);
+    yaml["joints"].push_back(joint);
+    yaml["drives"][joint] = silverlode_drive(i <= 3 ? "line0" : "line1", 15 + i);
+  }
+  if (!changes.empty()) merge(yaml, YAML::Load(changes));
+  return yaml;
+}
+
+YAML::Node six_axis_mixed(const std::string& changes) {
+  YAML::Node yaml = arm_of(3, "{buses: {line0: {type: silverlode}}}");
+  for (int i = 4; i <= 6; ++i) {
+    const std::string joint = fmt::format("joint{}", i);
+    yaml["joints"].push_back(joint);
+    yaml["drives"][joint] = silverlode_drive("line0", 12 + i);
+  }
+  if (!changes.empty()) merge(yaml, YAML::Load(changes));
+  return yaml;
+}
+
 std::map<std::string, trajectory::JointLimits> six_axis_urdf() {
   std::map<std::string, trajectory::JointLimits> limits;
   for (int i = 1; i <= 6; ++i) {

@@ -27,6 +27,11 @@ trajectory::Goal make_goal(const std::vector<double>& times,
 YAML::Node six_axis(const std::string& changes = "");
 /// The same arm with only its first `count` joints.
 YAML::Node arm_of(int count, const std::string& changes = "");
+/// The same six joints with SilverLode drives as in config/six_axis_silverlode.yaml: three on line0, three on
+/// line1.
+YAML::Node six_axis_silverlode(const std::string& changes = "");
+/// joint1..joint3 on a CAN bus, joint4..joint6 on a serial line, as in config/six_axis_mixed.yaml.
+YAML::Node six_axis_mixed(const std::string& changes = "");
 /// URDF limits of joint1..joint6: +-3.1 rad, 3.5 rad/s.
 std::map<std::string, trajectory::JointLimits> six_axis_urdf();
 

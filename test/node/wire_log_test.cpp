@@ -45,11 +45,34 @@ TEST(CandumpLine, FillsUpTheMicroseconds) {
             "(5.000042) can0 080#\n");
 }
 
+TEST(SerialLine, ShowsTheDirectionAndEscapesWhatDoesNotPrint) {
+  const HostDuration time = std::chrono::microseconds(12000345);
+  EXPECT_EQ(serial_line("line0", true, "@16 12 1", time), "(12.000345) line0 > @16 12 1\n");
+  EXPECT_EQ(serial_line("line0", false, "# 10 \xFF\x07", time), "(12.000345) line0 < # 10 \\xFF\\x07\n");
+}
+
+TEST_F(WireLogFile, TakesFramesAndTextsInTheirOrder) {
+  {
+    WireLog log(path_, HostDuration(0), {"can0", "line0"});
+    log.append("line0", hardware::SerialText{"@16 0", HostTime(std::chrono::seconds(1)), true});
+    log.append("can0", canopen::ReceivedFrame{frame(0x80, {}), HostTime(std::chrono::seconds(2)), true});
+    log.append("line0", hardware::SerialText{"* 10", HostTime(std::chrono::seconds(3)), false});
+    log.append("line0",
+               hardware::SerialText{std::string(500, 'x'), HostTime(std::chrono::seconds(4)), false});
+  }
+  const std::vector<std::string> expected{"(1.000000) line0 > @16 0", "(2.000000) can0 080#",
+                                          "(3.000000) line0 < * 10",
+                                          "(4.000000) line0 < " + std::string(WireLog::kLongestText, 'x')};
+  EXPECT_EQ(lines_of(path_), expected);
+}
+
 TEST_F(WireLogFile, KeepsTheOrderAndAddsTheOffset) {
   {
     WireLog log(path_, std::chrono::seconds(1000), {"can0", "can1"});
-    log.append("can1", {frame(0x181, {0x01}), HostTime(std::chrono::milliseconds(1500)), false});
-    log.append("can0", {frame(0x182, {0x02}), HostTime(std::chrono::milliseconds(1501)), true});
+    log.append("can1", canopen::ReceivedFrame{frame(0x181, {0x01}), HostTime(std::chrono::milliseconds(1500)),
+                                              false});
+    log.append("can0",
+               canopen::ReceivedFrame{frame(0x182, {0x02}), HostTime(std::chrono::milliseconds(1501)), true});
     EXPECT_EQ(log.lost(), 0U);
   }
   const std::vector<std::string> expected{"(1001.500000) can1 181#01", "(1001.501000) can0 182#02"};
@@ -61,7 +84,8 @@ TEST_F(WireLogFile, WritesEveryFrameThatIsNotCountedAsLost) {
   std::uint64_t lost = 0;
   {
     WireLog log(path_, HostDuration(0), {"can0"});
-    for (std::size_t i = 0; i < kFrames; ++i) log.append("can0", {frame(0x80, {}), HostTime{}, true});
+    for (std::size_t i = 0; i < kFrames; ++i)
+      log.append("can0", canopen::ReceivedFrame{frame(0x80, {}), HostTime{}, true});
     lost = log.lost();
   }
   EXPECT_EQ(lines_of(path_).size() + lost, kFrames);

@@ -64,6 +64,8 @@ struct AxisReport {
   std::uint64_t records_sent = 0;
   std::uint32_t minimum_fill = 0;  ///< records, while moving and more were to come
   std::uint32_t underruns = 0;
+  std::uint32_t refused_writes =
+      0;  ///< records the drive did not take at once (EPOS: got lost; SilverLode: NAK)
 };
 
 /// When a record of a plan may and must cross the bus, as goal time, and how long it keeps the bus.
@@ -82,6 +84,8 @@ class Axis {
 
   virtual const std::string& joint() const = 0;
   virtual const std::string& bus() const = 0;
+  /// What was found: "Joint joint1 (can0 node 1): maxon EPOS2 70/10, firmware 0x2126, ...".
+  virtual std::string description() const = 0;
   virtual AxisState state() const = 0;
   /// Why the axis is Offline or in Fault, as one sentence with joint, bus, node and what to do. Empty
   /// otherwise.
@@ -99,22 +103,34 @@ class Axis {
 
   /// Where the drive's demand rests, in joint units. Valid in Disabled, Ready.
   virtual double rest_position() const = 0;
-  /// Encodes `path` for the drive without sending anything. Refused plans leave the axis as it was.
-  virtual std::optional<Refusal> plan(const trajectory::Path& path) = 0;
+  /// How long before the path begins the axis must be told when that is to be. Zero: the axis begins at the
+  /// start signal of its bus, and where that falls is known only afterwards.
+  virtual GoalTime start_lead() const = 0;
+  /// Encodes `path` for the drive without sending anything. Refused plans leave the axis as it was. An axis
+  /// that begins at the start signal rests for `wait` from then on before it sets out; an axis with a lead
+  /// ignores it.
+  virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
   /// The records of the plan, for the budget of the bus.
   virtual std::vector<RecordSlot> record_slots() const = 0;
   /// Seconds of bus one record takes, as share of the bus that records may fill.
   virtual double record_bus_time() const = 0;
   /// Loads the plan into the FIFO and verifies that it got there: Loading, then Loaded.
   virtual void load(HostTime now) = 0;
-  /// Puts the start command on the bus; the drive obeys at the next start signal of its bus (EPOS: SYNC).
-  virtual void arm(HostTime now) = 0;
+  /// Starts the motion. An axis without a lead puts its start command on the bus, to be obeyed at the next
+  /// start signal (EPOS: SYNC), whatever `begin` is. An axis with a lead sees to it that its path begins at
+  /// `begin`.
+  virtual void arm(HostTime begin, HostTime now) = 0;
+  /// When the path begins or began; kNever while that is not known.
+  virtual HostTime path_begin() const = 0;
   /// Brakes by the drive's own deceleration and empties the FIFO: Stopping, then Ready. Also ends Loading and
   /// Loaded.
   virtual void stop(HostTime now) = 0;
 
   /// Goal time the drive is playing at host time `when` (before the path's start while not started).
   virtual GoalTime playback(HostTime when) const = 0;
+  /// Goal time of what the drive plays when `drive_seconds` have passed on its own clock since its motion
+  /// began.
+  virtual GoalTime goal_time_at(double drive_seconds) const = 0;
   /// True once the drive has played the whole plan and left its interpolation by itself.
   virtual bool finished() const = 0;
   /// Latest position and velocity from the drive.

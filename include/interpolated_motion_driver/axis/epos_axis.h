@@ -31,6 +31,7 @@ class EposAxis : public Axis {
 
   const std::string& joint() const override { return parameters_.joint; }
   const std::string& bus() const override { return master_.bus_name(); }
+  std::string description() const override;
   AxisState state() const override;
   const std::string& fault_text() const override { return fault_text_; }
 
@@ -43,22 +44,27 @@ class EposAxis : public Axis {
   void reset_fault(HostTime now) override;
 
   double rest_position() const override;
-  std::optional<Refusal> plan(const trajectory::Path& path) override;
-  std::vector<RecordSlot> record_slots() const override { return planned_.slots(planned_start_); }
+  GoalTime start_lead() const override { return GoalTime{0.0}; }
+  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::vector<RecordSlot> record_slots() const override {
+    return planned_.slots(planned_start_ - planned_wait_);
+  }
   double record_bus_time() const override { return parameters_.record_bus_time; }
   void load(HostTime now) override;
-  void arm(HostTime now) override;
+  void arm(HostTime begin, HostTime now) override;
+  HostTime path_begin() const override;
   void stop(HostTime now) override;
 
-  GoalTime playback(HostTime when) const override { return path_start_ + GoalTime{clock_.elapsed(when)}; }
+  GoalTime playback(HostTime when) const override { return goal_time_at(clock_.elapsed(when)); }
+  GoalTime goal_time_at(double drive_seconds) const override {
+    return path_start_ - wait_ + GoalTime{drive_seconds};
+  }
   bool finished() const override { return finished_; }
   const AxisFeedback& feedback() const override { return feedback_; }
   void status(HostTime now, AxisStatus& out) const override;
   AxisReport report() const override;
 
   const EposFacts& facts() const { return facts_; }
-  /// "Joint joint1 (can0 node 1): maxon EPOS2 70/10, firmware 0x2126, velocity unit 0.001 rpm, ..."
-  std::string description() const;
 
  private:
   enum class Phase {
@@ -177,8 +183,10 @@ class EposAxis : public Axis {
   std::int32_t rest_counts_ = 0;
   RecordFeed planned_;
   GoalTime planned_start_{0.0};
+  GoalTime planned_wait_{0.0};
   RecordFeed feed_;
   GoalTime path_start_{0.0};
+  GoalTime wait_{0.0};  ///< from the start signal to path_start_
   PlaybackClock clock_;
   bool finished_ = false;
   int load_attempts_ = 0;
@@ -196,6 +204,7 @@ class EposAxis : public Axis {
   std::uint32_t underruns_at_load_ = 0;
   std::uint32_t overflows_ = 0;
   std::uint32_t refused_writes_ = 0;
+  std::uint32_t refused_at_load_ = 0;
   std::uint64_t records_sent_ = 0;
 };
 

@@ -56,8 +56,8 @@ class World {
   transport::VirtualSerialLine& add_serial_line(std::string name,
                                                 const transport::SerialLineParameters& parameters = {});
 
-  /// A new drive on `line`. Throws std::invalid_argument for a wrong parameter or an address already taken on
-  /// that line. The reference stays valid.
+  /// A new drive on `line`. Two drives may have one address: their answers then spoil each other. Throws
+  /// std::invalid_argument for a wrong parameter. The reference stays valid.
   SilverDust& add_silverdust(transport::VirtualSerialLine& line, const SilverDustParameters& parameters);
 
   /// The host's side of a line. Throws std::invalid_argument when there is no line of that name.

@@ -50,6 +50,10 @@ struct PvtStream {
   double worst_deviation_counts() const;
 };
 
+/// Puts records before the first of `stream` that keep the drive where it stands for `rest`, and returns
+/// `rest`.
+DriveMilliseconds rest_before(DriveMilliseconds rest, PvtStream& stream);
+
 /// Encodes a path record by record, from any knot on.
 class PvtEncoder {
  public:

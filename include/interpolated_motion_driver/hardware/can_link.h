@@ -1,40 +1,37 @@
 #pragma once
 
-#include <functional>
 #include <string>
+#include <vector>
 
-#include "interpolated_motion_driver/axis/start_signal.h"
+#include "interpolated_motion_driver/hardware/bus_link.h"
 #include "interpolated_motion_driver/hardware/configuration.h"
-#include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/transport/can_bus.h"
 
 namespace interpolated_motion::hardware {
 
-using WireObserver = std::function<void(const std::string& bus, const canopen::ReceivedFrame&)>;
-
-/// One CAN bus with its CANopen master: carries frames between the two.
-class CanLink : public axis::StartSignal {
+/// One CAN bus with its CANopen master. Its start signal is SYNC.
+class CanLink : public BusLink {
  public:
   /// `bus` must outlive the link.
   CanLink(const BusConfiguration& configuration, transport::CanBus& bus);
 
   canopen::Master& master() { return master_; }
-  const std::string& name() const { return master_.bus_name(); }
+  const std::string& name() const override { return master_.bus_name(); }
 
-  /// Gives the master every frame that has arrived.
-  void receive(const WireObserver& observer);
-  /// Hands the bus every frame that is due and that it takes.
-  void send(HostTime now);
-
+  void receive(const WireObserver& observer) override;
+  void poll(HostTime now) override { master_.poll(now); }
+  void send(HostTime now) override;
+  HostTime next_deadline() const override { return master_.next_deadline(); }
   void signal(HostTime now) override { master_.request_sync(now); }
 
-  motion::BusSnapshot snapshot() const;
+  motion::BusSnapshot snapshot() const override;
+  double peak_load() const override { return peak_load_; }
+  void reset_peak_load() override { peak_load_ = 0.0; }
+  std::vector<std::string> unexpected_traffic() const override;
+
   /// Share of the bus that one motion record takes, s.
   double record_bus_time() const;
-
-  void reset_peak_load() { peak_load_ = 0.0; }
-  double peak_load() const { return peak_load_; }
 
  private:
   transport::CanBus& bus_;

@@ -8,17 +8,36 @@
 #include <yaml-cpp/yaml.h>
 
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust_parameters.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/interpolation/ims_profile.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_parameters.h"
+#include "interpolated_motion_driver/protocol/silverlode/registers.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/transport/virtual_serial_line.h"
 
 namespace interpolated_motion::hardware {
 
 /// Where the drives of a bus are: emulated within the process.
 enum class TransportKind { Emulated };
 
+/// The protocol of a bus.
+enum class BusType { Canopen, Silverlode };
+
+/// What only serial lines have.
+struct SerialLineConfiguration {
+  silverlode::LineParameters line;
+  transport::SerialWiring wiring = transport::SerialWiring::Rs485TwoWire;  ///< of an emulated line
+  double start_lead =
+      0.15;  ///< s, and kLeadOfDrive more for each drive: from the start command to the motion
+};
+
+/// A bus and its protocol. What only one protocol knows is without meaning for the other.
 struct BusConfiguration {
   std::string name;
+  BusType type = BusType::Canopen;
   TransportKind transport = TransportKind::Emulated;
+  SerialLineConfiguration serial;
   std::uint32_t bitrate = 1'000'000;  ///< bit/s
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
   double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats
@@ -39,10 +58,26 @@ struct EmulationConfiguration {
   emulation::EposParameters drive;  ///< position in counts, whatever the joint's units
 };
 
+/// Which interpolator of which drive plays the motion.
+enum class DriveType { EposIpm, SilverlodeIms };
+
+/// What only SilverLode drives have.
+struct SilverlodeConfiguration {
+  int address = 0;  ///< 1..254
+  interpolation::ImsScale scale;
+  silverlode::DriveScale command_scale;
+  std::string ims_arguments = "0 0";  ///< of IMS
+  int queue_depth = 0;                ///< segments; 0: measured at bring-up
+  emulation::SilverDustParameters emulated;
+};
+
+/// A joint's drive. What only one type of drive knows is without meaning for the others.
 struct DriveConfiguration {
   std::string joint;
   std::string bus;
-  int node_id = 0;  ///< 1..126
+  DriveType type = DriveType::EposIpm;
+  int node_id = 0;  ///< 1..127, of EPOS drives
+  SilverlodeConfiguration silverlode;
   encoding::Transmission transmission;
   trajectory::JointLimits limits;    ///< URDF limits, tightened by the configuration
   double deviation_bound = 1.0;      ///< counts, worst deviation from the path at any drive sample

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "interpolated_motion_driver/emulation/epos_drive.h"
+#include "interpolated_motion_driver/emulation/silverdust.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
+#include "interpolated_motion_driver/transport/virtual_serial_line.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::hardware {
@@ -19,5 +21,16 @@ bool inject_drive_fault(emulation::EposDrive& drive, const std::string& command,
 /// False with a reason for anything else.
 bool inject_bus_fault(transport::VirtualCanBus& bus, const std::string& command, HostTime now,
                       std::string* reason);
+
+/// Commands: `fault over_temperature|over_voltage|low_voltage|moving_error|holding_error`, `power_cycle
+/// SECONDS`, `stall 0|1`, `silence 0|1`, `clock PPM`. False with a reason for anything else.
+bool inject_drive_fault(emulation::SilverDust& drive, const std::string& command, HostTime now,
+                        std::string* reason);
+
+/// Commands: `lose_requests COUNT`, `lose_replies COUNT` (the next COUNT characters towards or from the
+/// drives reach nobody), `garble_requests COUNT`, `garble_replies COUNT` (they arrive wrong), `garbage TEXT`
+/// (the host receives what nobody has sent), `disconnect 0|1`. False with a reason for anything else.
+bool inject_line_fault(transport::VirtualSerialLine& line, const std::string& command, HostTime now,
+                       std::string* reason);
 
 }  // namespace interpolated_motion::hardware

@@ -1,24 +1,20 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/hardware/demand_sample.h"
 #include "interpolated_motion_driver/hardware/event_log.h"
+#include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
-#include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/units/expected.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
-
-namespace interpolated_motion::emulation {
-struct EposSample;
-}
 
 namespace interpolated_motion::hardware {
 
@@ -83,11 +79,11 @@ class MotionHardware {
   using LogEntry = hardware::LogEntry;
   std::optional<LogEntry> take_log();
 
-  /// `observer` is called with every frame seen on any CAN bus, in the order of the wire.
-  void set_wire_observer(std::function<void(const std::string& bus, const canopen::ReceivedFrame&)> observer);
+  /// `observer` sees everything that crosses any bus from now on.
+  void set_wire_observer(WireObserver observer);
 
   /// `observer` is called at each 1 ms sample of an emulated drive, with the number of its joint in joints().
-  void set_sample_observer(std::function<void(std::size_t joint, const emulation::EposSample&)> observer);
+  void set_sample_observer(SampleObserver observer);
 
   /// Injects a fault into the emulated drive of a joint or into an emulated bus, see fault_injection.h. False
   /// with a reason when `target` is not emulated or the command is unknown.

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "interpolated_motion_driver/emulation/epos_drive.h"
+#include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 
@@ -12,13 +12,16 @@ namespace interpolated_motion::hardware {
 /// counts.
 class PathAudit {
  public:
-  explicit PathAudit(const encoding::Transmission& transmission) : transmission_(transmission) {}
+  /// `axis` must outlive the audit.
+  PathAudit(const encoding::Transmission& transmission, const axis::Axis& axis)
+      : transmission_(transmission), axis_(&axis) {}
 
-  /// From now on samples belong to `path`, whose start is the drive's sample 0.
+  /// From now on samples belong to `path`.
   void begin(const trajectory::Path& path);
   /// Samples are no longer compared: the drive has been told to leave the path.
   void end() { comparing_ = false; }
-  void add(const emulation::EposSample& sample);
+  /// One sample of the drive: its demand in counts, `drive_seconds` on its own clock after its motion began.
+  void add(double drive_seconds, double demand);
 
   std::uint64_t samples() const { return samples_; }
   double worst_deviation() const { return worst_; }  ///< counts
@@ -26,6 +29,7 @@ class PathAudit {
 
  private:
   encoding::Transmission transmission_;
+  const axis::Axis* axis_;
   trajectory::Path path_;
   bool comparing_ = false;
   std::uint64_t samples_ = 0;

@@ -17,6 +17,7 @@ struct ActiveGoal {
   trajectory::Tolerances tolerances;
   HostTime start{};           ///< earliest host time at which the motion may begin
   HostTime started = kNever;  ///< when the start command was sent
+  bool begin_is_set = false;  ///< every axis has been told when its path begins
   HostTime ended = kNever;    ///< when the last drive had played its records
 };
 

@@ -29,6 +29,10 @@ struct GroupParameters {
 /// A group of axes that move together, on any mix of buses and kinds of drives. A goal goes through: checked
 /// and encoded whole for every axis, loaded into all FIFOs, common start, supervised, settled. Whatever goes
 /// wrong on the way brings all axes to rest, and nothing moves again without a new goal.
+///
+/// Common start: axes that begin at the start signal of their bus all get it at once. Where others begin at
+/// an instant they are told beforehand, the former rest for a while after their signal, and the latter are
+/// told when that will be over.
 class Group {
  public:
   /// The axes and start signals must outlive the group; axes in the order of `parameters.rules.joints`.
@@ -87,6 +91,9 @@ class Group {
   void start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now);
   void start_pending(HostTime now);
   void start_motion(HostTime now);
+  void set_common_begin(HostTime now);
+  GoalTime longest_lead() const;
+  GoalTime wait_after_signal() const;
   void finish_goal(const Ending& ending);
   void finish_stop_goals();
   void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);

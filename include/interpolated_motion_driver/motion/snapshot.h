@@ -83,7 +83,8 @@ struct JointReport {
   std::uint64_t records_sent = 0;
   std::uint32_t minimum_fill = 0;  ///< records, while interpolating and more were to come
   std::uint32_t underruns = 0;
-  std::uint64_t samples = 0;  ///< drive samples compared (0: the drive is not emulated)
+  std::uint32_t refused_writes = 0;  ///< records the drive did not take at once
+  std::uint64_t samples = 0;         ///< drive samples compared (0: the drive is not emulated)
   double worst_deviation =
       0.0;  ///< counts: drive's demand against the goal's polynomial, over all drive samples
   double final_deviation = 0.0;  ///< counts, at the last sample

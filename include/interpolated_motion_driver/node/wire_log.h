@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <condition_variable>
 #include <cstdint>
 #include <cstdio>
@@ -7,8 +8,10 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
+#include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -18,8 +21,13 @@ namespace interpolated_motion::node {
 /// and `canplayer` and `log2asc` read it; with a newline. `time` is since the epoch.
 std::string candump_line(const std::string& bus, const canopen::Frame& frame, HostDuration time);
 
-/// Writes all CAN traffic to a file, from a thread of its own. The bus thread only appends to a bounded
-/// queue; when the file system cannot keep up, frames are left out and counted.
+/// One line of serial traffic, `(seconds.microseconds) BUS > TEXT` from the host to a drive and `<` from a
+/// drive to the host, the CR not shown and other bytes that do not print as `\xNN`; with a newline. `time` is
+/// since the epoch.
+std::string serial_line(const std::string& bus, bool from_host, std::string_view text, HostDuration time);
+
+/// Writes all traffic of all buses to a file, from a thread of its own. The bus thread only appends to a
+/// bounded queue; when the file system cannot keep up, frames and lines are left out and counted.
 class WireLog {
  public:
   /// Opens `path` anew. `offset`: wall clock minus host clock. `buses`: every name that will be given to
@@ -32,23 +40,37 @@ class WireLog {
 
   /// Queues one frame, without allocation; the lock is never held while the file is written.
   void append(const std::string& bus, const canopen::ReceivedFrame& frame);
+  /// The same for a line of text; of one that is longer than kLongestText the rest is left out.
+  void append(const std::string& bus, const hardware::SerialText& text);
 
-  /// Frames that are missing in the file because the queue was full or the disk was.
+  /// Characters; the longest command of the driver has 52.
+  static constexpr std::size_t kLongestText = 120;
+
+  /// Frames and lines that are missing in the file because the queue was full or the disk was.
   std::uint64_t lost() const;
 
   const std::string& path() const { return path_; }
 
  private:
+  struct Text {
+    std::array<char, kLongestText> characters;
+    std::size_t length;
+    HostTime time;
+    bool from_host;
+  };
+  using Traffic = std::variant<canopen::ReceivedFrame, Text>;
   struct Entry {
     std::size_t bus;  ///< index in buses_
-    canopen::ReceivedFrame frame;
+    Traffic traffic;
   };
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
+  void queue(const std::string& bus, const Traffic& traffic);
   void run();
   void write(const std::vector<Entry>& entries);
+  std::string line_of(const Entry& entry) const;
 
   const std::string path_;
   const HostDuration offset_;

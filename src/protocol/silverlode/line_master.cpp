@@ -56,6 +56,11 @@ bool LineMaster::something_waits() const {
          });
 }
 
+bool LineMaster::bulk_waits() const {
+  return std::any_of(in_order_.begin(), in_order_.end(),
+                     [](const DeviceLink* device) { return device->bulk_waits(); });
+}
+
 std::optional<std::string_view> LineMaster::peek_outgoing(HostTime now) {
   advance(now);
   peeked_ = Peeked::None;

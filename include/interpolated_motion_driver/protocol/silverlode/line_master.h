@@ -82,6 +82,11 @@ class LineMaster {
   /// The transport has taken the text that `peek_outgoing` returned just before.
   void pop_outgoing(HostTime now);
 
+  /// A bulk request of any device waits.
+  bool bulk_waits() const;
+  /// No request waits or is under way.
+  bool idle() const { return !exchange_ && !something_waits(); }
+
   /// Sends a request to the global address to all drives, before everything else that waits. It is not
   /// answered, and may be lost without notice. False when the queue of 8 is full or the request has another
   /// address.

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "interpolated_motion_driver/encoding/ims_encoder.h"
+#include "interpolated_motion_driver/interpolation/ims_segment.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// The segments of one path on their way into a drive's queue, encoded one by one as they are needed, so that
+/// each can take the drive's clock into account as it is known by then.
+///
+/// Before the path go segments of waiting, in which the drive stands; after it goes the one with time 0,
+/// which ends the interpolated motion. A segment leaves the queue when the drive begins it, so one is
+/// executed while as many as the queue is deep wait: "full" is known before it happens.
+class SegmentFeed {
+ public:
+  /// Begins anew, nothing sent. `depth`: places of the drive's queue, >= 1. Throws as
+  /// encoding::ImsEncoding::validate().
+  void load(const trajectory::Path& path, const encoding::ImsEncoding& encoding, std::int32_t start_counts,
+            std::size_t depth);
+  bool loaded() const { return source_ != nullptr; }
+
+  /// A segment of waiting for `ticks` >= 1, to be sent next. Only before the first segment of the path.
+  void wait(std::int64_t ticks);
+
+  /// The segment to send next, the same until mark_sent(). A new one is encoded with `rate` goal seconds per
+  /// second of the drive. Refused when the path cannot be followed from where the segments so far lead.
+  Expected<ImsSegment, Refusal> next(double rate);
+  void mark_sent();
+
+  bool all_sent() const { return terminated_; }
+  std::size_t sent() const { return sent_; }
+  /// Whether a place of the queue is free although the drive may have played no more than `least_elapsed`
+  /// seconds. The drive has not started yet when `started` is false: then nothing has left the queue.
+  bool has_place(double least_elapsed, bool started) const;
+  /// Segments in the queue, that under execution not counted.
+  std::size_t waiting(double elapsed, bool started) const;
+  /// Seconds of the drive's clock from the start of the motion: where the queue ends, where the segment after
+  /// the one executed at `elapsed` begins.
+  double queue_end() const { return tick_ * static_cast<double>(end_tick_); }
+  double next_begin(double elapsed) const;
+  double duration() const { return queue_end(); }
+
+  /// An instant of the drive's motion.
+  struct Instant {
+    double elapsed = 0.0;  ///< s, drive's clock
+    ImsSegment segment;    ///< under execution then
+  };
+  /// When `ticks_left` remain of a segment, of the one for which that comes nearest to `expected` seconds.
+  std::optional<Instant> instant_of(std::int64_t ticks_left, double expected) const;
+
+  /// Goal time that the next segment begins at, and that of any instant of the drive's motion so far.
+  GoalTime knot_goal_time() const;
+  GoalTime goal_time_at(double drive_seconds) const;
+  const trajectory::Path& path() const;
+  std::int32_t final_counts() const { return final_counts_; }
+
+ private:
+  /// What the drive executes from tick `begin` on.
+  struct Stretch {
+    std::int64_t begin = 0;
+    std::int64_t ticks = 0;
+    GoalTime goal_begin{0.0};
+    double rate = 1.0;  ///< goal seconds per drive second
+    ImsSegment segment;
+  };
+  /// The path and its encoder, which refers to it.
+  struct Source {
+    Source(const trajectory::Path& p, const encoding::ImsEncoding& encoding, std::int32_t start_counts);
+    trajectory::Path path;
+    encoding::ImsEncoder encoder;
+  };
+
+  std::size_t executing(double elapsed) const;
+  void forget_old_stretches();
+
+  /// Stretches remembered; far more than any queue is deep.
+  static constexpr std::size_t kMemory = 64;
+
+  std::unique_ptr<Source> source_;
+  encoding::ImsEncoding encoding_;
+  std::int32_t start_counts_ = 0;
+  std::int32_t final_counts_ = 0;
+  std::size_t depth_ = 0;
+  double tick_ = 0.0;
+  std::optional<Stretch> next_;
+  ImsSegment last_;
+  std::deque<Stretch> stretches_;  ///< of the segments sent, the last ones
+  std::size_t sent_ = 0;
+  std::int64_t end_tick_ = 0;
+  std::int64_t waited_ = 0;  ///< ticks before the path
+  bool terminated_ = false;
+};
+
+}  // namespace interpolated_motion::axis

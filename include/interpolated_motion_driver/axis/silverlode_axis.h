@@ -1,0 +1,202 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/command_sequence.h"
+#include "interpolated_motion_driver/axis/playback_clock.h"
+#include "interpolated_motion_driver/axis/segment_feed.h"
+#include "interpolated_motion_driver/axis/silverlode_parameters.h"
+#include "interpolated_motion_driver/axis/silverlode_status.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_master.h"
+
+namespace interpolated_motion::axis {
+
+/// A QuickSilver SilverLode drive in interpolated motion (IMS), fed through its queue (IMQ, IMW) over a
+/// serial line.
+///
+/// A goal's way: plan() encodes it whole, to see that it can be done; load() empties the queue, looks where
+/// the drive stands, and queues a first segment of waiting; arm() sends IMS. The time of that command tells
+/// when the drive began, so a second segment of waiting can end exactly at the instant the path is to begin
+/// at, however long the drives of a line had to wait for their turn. Then segments of the path follow, each
+/// encoded when it is due, at a rate that takes the drive's crystal into account; the segment with time 0
+/// ends the motion. If the host stays silent the queue runs dry, and the drive brakes by itself with
+/// register 19.
+///
+/// A segment whose ACK was lost must not get into the queue twice. It is sent again only when it has filled
+/// the last place of the queue and no place becomes free meanwhile: then NAK "full" says that it was in, and
+/// ACK that it was not. Otherwise nobody can know, and the axis stops.
+class SilverlodeAxis : public Axis {
+ public:
+  /// `line` and `device` must outlive the axis. Throws std::invalid_argument, naming joint and parameter.
+  SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
+                 silverlode::DeviceLink& device);
+
+  const std::string& joint() const override { return parameters_.joint; }
+  const std::string& bus() const override { return line_.line_name(); }
+  std::string description() const override;
+  AxisState state() const override;
+  const std::string& fault_text() const override { return fault_text_; }
+
+  void poll(HostTime now) override;
+  HostTime next_deadline() const override;
+
+  void bring_up(HostTime now) override;
+  void enable(HostTime now) override;
+  void disable(HostTime now) override;
+  void reset_fault(HostTime now) override;
+
+  double rest_position() const override;
+  GoalTime start_lead() const override { return GoalTime{parameters_.start_lead}; }
+  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::vector<RecordSlot> record_slots() const override { return planned_slots_; }
+  double record_bus_time() const override { return parameters_.record_bus_time; }
+  void load(HostTime now) override;
+  void arm(HostTime begin, HostTime now) override;
+  HostTime path_begin() const override { return begin_; }
+  void stop(HostTime now) override;
+
+  GoalTime playback(HostTime when) const override;
+  GoalTime goal_time_at(double drive_seconds) const override { return feed_.goal_time_at(drive_seconds); }
+  bool finished() const override { return finished_; }
+  const AxisFeedback& feedback() const override { return status_.feedback(); }
+  void status(HostTime now, AxisStatus& out) const override;
+  AxisReport report() const override;
+
+ private:
+  enum class Phase {
+    Offline,
+    Probing,  ///< waits for the first answer
+    Configuring,
+    Disabled,
+    Enabling,
+    Ready,
+    Clearing,
+    Filling,  ///< the first segment is on its way
+    Loaded,
+    Starting,  ///< IMS is on its way
+    Moving,
+    Ending,  ///< played; looks where the drive has stopped
+    Braking,
+    Emptying,
+    Disabling,
+    Fault,
+  };
+  /// What became of the segment sent last.
+  enum class Delivery { None, Sent, Unknown, SentAgain };
+
+  using Steps = std::vector<CommandSequence::Step>;
+
+  /// Looks at a drive that is to come to rest; about 12 s on a line at 57600 baud.
+  static constexpr int kLooksAtStop = 1000;
+
+  void run_phase(HostTime now);
+  void poll_probing(HostTime now);
+  void poll_configuring(HostTime now);
+  void poll_clearing(HostTime now);
+  void poll_filling(HostTime now);
+  void poll_starting(HostTime now);
+  void poll_moving(HostTime now);
+  void poll_ending(HostTime now);
+  void poll_braking(HostTime now);
+  void advance_when_done(Phase next, HostTime now);
+
+  // What is sent for what: silverlode_bring_up.cpp.
+  Steps bring_up_steps();
+  Steps enable_steps();
+  Steps clear_status();
+  Steps error_limit_steps();
+  Steps measure_depth();
+  Steps write_and_verify(std::uint16_t number, std::int32_t value, const char* purpose);
+  CommandSequence::Step await_rest(int looks_left);
+  CommandSequence::Step check_no_fault();
+  CommandSequence::Step try_multi_register();
+  CommandSequence::Step try_one_more();
+  CommandSequence::Step read_rest();
+  CommandSequence::Step read_position();
+  CommandSequence::Check store(std::int32_t& value) const;
+  std::int32_t underrun_deceleration() const;
+  std::int32_t stop_deceleration() const;
+  double counts_per_radian() const;
+
+  void take_outcomes(HostTime now);
+  void take_delivery(const silverlode::Outcome& outcome, HostTime now);
+  void take_start(const silverlode::Outcome& outcome, HostTime now);
+  void resolve_unknown(const silverlode::Outcome& outcome, HostTime now);
+  bool full_queue_would_tell(HostTime now) const;
+
+  std::vector<RecordSlot> slots_of(const encoding::ImsStream& stream, GoalTime start) const;
+  void make_second_wait(HostTime now);
+  void feed(HostTime now);
+  void offer(HostTime now);
+  double rate_for_next() const;
+  void take_execution(const SilverlodeStatus::Execution& look, HostTime now);
+  void learn_clock(HostTime asked, double elapsed);
+  void look_at_drive(HostTime now);
+  HostDuration look_period() const;
+  void watch_rest(HostTime now);
+  void watch_motion(HostTime now);
+  void end_of_motion(HostTime now);
+  void start_braking(HostTime now);
+
+  encoding::ImsEncoding encoding() const;
+  double drive_rate() const { return 1.0 + 1e-6 * clock_error_ppm_; }
+  double tick() const { return parameters_.scale.tick; }
+  double demand_at(HostTime when) const;
+  std::string state_text() const;
+  bool is_motion_phase() const { return phase_ == Phase::Starting || phase_ == Phase::Moving; }
+  bool is_enabled() const;
+  void enter(Phase phase, HostTime now);
+  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
+  bool sequence_done(HostTime now);
+  std::string who() const;
+  void fail(const std::string& reason, HostTime now);
+  void fail_in_motion(const std::string& reason, HostTime now);
+  void go_offline(const std::string& reason, HostTime now);
+
+  SilverlodeAxisParameters parameters_;
+  silverlode::LineMaster& line_;
+  silverlode::DeviceLink& device_;
+  CommandSequence sequence_;
+  SilverlodeStatus status_;
+
+  Phase phase_ = Phase::Offline;
+  HostTime phase_since_{};
+  HostTime last_poll_{};
+  HostTime bring_up_since_{};
+  bool configured_ = false;
+  std::string fault_text_;
+  std::string revision_;
+  std::size_t depth_ = 0;
+  bool multi_register_ = true;
+
+  std::int32_t rest_counts_ = 0;
+  std::int32_t read_target_ = 0;        ///< register 0 and
+  std::int32_t read_deceleration_ = 0;  ///< register 19 as the drive has them before a motion
+  trajectory::Path planned_path_;
+  std::vector<RecordSlot> planned_slots_;
+  SegmentFeed feed_;
+  PlaybackClock clock_;
+  double clock_error_ppm_ = 0.0;  ///< as the last motion has shown it
+  HostTime begin_ = kNever;
+  bool second_wait_made_ = false;
+  bool finished_ = false;
+
+  silverlode::RequestId segment_id_ = silverlode::kNoRequest;
+  silverlode::RequestId start_id_ = silverlode::kNoRequest;
+  Delivery delivery_ = Delivery::None;
+  HostTime retry_at_{};
+  int misunderstood_ = 0;  ///< times in a row that the drive could not read a segment
+  int misfits_ = 0;        ///< looks in a row at an execution that does not fit
+
+  std::uint32_t minimum_fill_ = 0;
+  std::uint32_t underruns_ = 0;
+  std::uint32_t underruns_at_load_ = 0;
+  std::uint32_t refused_writes_ = 0;
+  std::uint32_t refused_at_load_ = 0;
+  std::uint64_t records_sent_ = 0;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/interpolation/ims_profile.h"
+#include "interpolated_motion_driver/protocol/silverlode/registers.h"
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// Settings of one SilverLode drive.
+struct SilverlodeAxisParameters {
+  std::string joint;
+  encoding::Transmission transmission;
+  trajectory::JointLimits limits;  ///< velocity and acceleration must be finite
+  double deviation_bound = 2.0;    ///< counts, at any servo tick
+  double limit_margin = 1.2;  ///< segments may exceed the joint's acceleration by this factor between knots
+  double max_following_error = 0.1;  ///< rad, ERL
+  double commit_horizon = 2.0;       ///< s of motion kept in the drive's queue
+  double record_bus_time = 0.0;      ///< s of line per segment, as share of what segments may fill
+  double start_lead = 0.3;           ///< s from arm() to the begin of the path
+
+  interpolation::ImsScale scale;  ///< of the segments; its counts per revolution are those of `transmission`
+  silverlode::DriveScale command_scale;  ///< of all other commands
+  std::string ims_arguments = "0 0";     ///< of IMS: in no document at hand
+  int queue_depth = 0;                   ///< 4, or 8 from SilverDust revision 06 on; 0: measured at bring-up
+  double max_clock_error = 5e-4;         ///< of the drive's crystal, relative
+
+  /// From the last bit of a command to its execution by the drive, at most. Nothing is documented; the reply
+  /// follows about 2 ms after the command, the command is executed before.
+  HostDuration execution_time = std::chrono::microseconds(300);
+  HostDuration bring_up_timeout = std::chrono::seconds(5);
+  HostDuration status_period = std::chrono::milliseconds(50);  ///< between two looks at the drive in motion
+  HostDuration feedback_timeout =
+      std::chrono::milliseconds(1000);  ///< longest silence of position reports in motion
+};
+
+}  // namespace interpolated_motion::axis

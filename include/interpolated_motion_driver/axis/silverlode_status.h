@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/protocol/silverlode/device_link.h"
+#include "interpolated_motion_driver/protocol/silverlode/status_words.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// What a SilverLode drive has told about itself, asked bit by bit whenever the line has time for it:
+/// positions, the ticks left of a segment, the I/O status word, the polling status word.
+class SilverlodeStatus {
+ public:
+  SilverlodeStatus(silverlode::DeviceLink& device, const encoding::Transmission& transmission)
+      : device_(device), transmission_(transmission) {}
+
+  /// Asks the next question. `moving`: what changes in motion is asked more often than what may have happened
+  /// at rest.
+  void ask(bool moving, bool multi_register, HostTime now);
+  /// Takes the outcome if it belongs to a question of this object.
+  bool take(const silverlode::Outcome& outcome);
+  /// Takes the actual position from an answer whose first register it is.
+  void take_position(const silverlode::Outcome& outcome);
+  bool asking() const { return asked_ != silverlode::kNoRequest; }
+  /// Forgets everything but the position: the drive may be another one now, or have restarted.
+  void forget();
+  HostTime asked_at() const { return asked_at_; }
+
+  const AxisFeedback& feedback() const { return feedback_; }
+  std::int32_t actual_counts() const { return actual_counts_; }
+
+  silverlode::IoStatus io;
+  HostTime io_time{};  ///< the drive answered with `io` at this time or later
+  silverlode::PollingStatus polling;
+  std::optional<std::int32_t> underrun_deceleration;  ///< register 19; lost when the drive restarts
+  /// A look at the segment under execution: when, the servo ticks left of it, and the numbers the drive has
+  /// copied.
+  struct Execution {
+    silverlode::Outcome outcome;
+    std::int32_t ticks_left = 0;
+    std::optional<std::int32_t> acceleration;  ///< unknown where the drive reads one register at a time
+    std::optional<std::int32_t> velocity;
+  };
+  std::optional<Execution> execution;  ///< the latest, until it is taken
+  /// The last question when it got no answer, as text; empty when it got one.
+  std::string silence;
+
+ private:
+  enum class Question {
+    Position,
+    PositionAndDeceleration,
+    PositionAndExecution,
+    Deceleration,
+    Ticks,
+    Io,
+    Polling
+  };
+
+  /// Refused questions in a row that are taken for garbled ones.
+  static constexpr int kRefusals = 3;
+
+  silverlode::Request request_of(Question question) const;
+  void take_answer(const silverlode::Outcome& outcome);
+
+  silverlode::DeviceLink& device_;
+  encoding::Transmission transmission_;
+  silverlode::RequestId asked_ = silverlode::kNoRequest;
+  Question question_ = Question::Position;
+  std::size_t turn_ = 0;
+  int refusals_ = 0;
+  HostTime asked_at_{};
+  AxisFeedback feedback_;
+  std::int32_t actual_counts_ = 0;
+};
+
+}  // namespace interpolated_motion::axis

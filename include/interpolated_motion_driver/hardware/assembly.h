@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/emulation/world.h"
+#include "interpolated_motion_driver/hardware/bus_link.h"
+#include "interpolated_motion_driver/hardware/can_link.h"
+#include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/hardware/demand_sample.h"
+#include "interpolated_motion_driver/hardware/path_audit.h"
+#include "interpolated_motion_driver/hardware/serial_link.h"
+
+namespace interpolated_motion::hardware {
+
+/// Everything that one configuration asks for: buses with their masters, one axis per joint, and the emulated
+/// drives of emulated buses. Built once; nothing of it moves afterwards.
+class Assembly {
+ public:
+  /// Throws std::invalid_argument, std::runtime_error (a bus that cannot be opened).
+  Assembly(const Configuration& configuration, HostTime start);
+  Assembly(const Assembly&) = delete;
+  Assembly& operator=(const Assembly&) = delete;
+
+  emulation::World& world() { return world_; }
+  const std::vector<std::unique_ptr<BusLink>>& links() const { return links_; }
+  const std::vector<std::unique_ptr<axis::Axis>>& axes() const { return axes_; }  ///< as `joints` orders them
+
+  /// From now on the samples of each emulated drive are held against the path of its joint.
+  void begin_audits(const std::vector<trajectory::Path>& paths);
+  /// The drives have been told to leave their paths.
+  void end_audits();
+  /// One per joint; without a sample while the joint's drive is not emulated.
+  const std::vector<PathAudit>& audits() const { return audits_; }
+  /// `observer` sees all samples that are audited.
+  void set_sample_observer(SampleObserver observer) { sample_observer_ = std::move(observer); }
+
+  /// Injects a fault into what is called `target`, a joint or a bus. False with a reason when it is not
+  /// emulated or the command is unknown.
+  bool inject(const std::string& target, const std::string& command, HostTime now, std::string* reason);
+
+ private:
+  using Injector = std::function<bool(const std::string& command, HostTime now, std::string* reason)>;
+
+  void add_can_bus(const BusConfiguration& bus);
+  void add_serial_line(const BusConfiguration& bus);
+  void add_epos(const Configuration& configuration, const DriveConfiguration& drive);
+  void add_silverlode(const Configuration& configuration, const DriveConfiguration& drive);
+  void emulate_epos(const DriveConfiguration& drive, std::size_t index);
+  void emulate_silverlode(const DriveConfiguration& drive, std::size_t index);
+  void take(std::size_t joint, const DemandSample& sample);
+
+  emulation::World world_;
+  std::map<std::string, BusConfiguration> bus_configurations_;
+  std::map<std::string, CanLink*> can_links_;
+  std::map<std::string, SerialLink*> serial_links_;
+  std::map<std::string, transport::VirtualCanBus*> virtual_can_buses_;
+  std::map<std::string, transport::VirtualSerialLine*> virtual_lines_;
+  std::vector<std::unique_ptr<BusLink>> links_;
+  std::vector<std::unique_ptr<axis::Axis>> axes_;
+  std::vector<PathAudit> audits_;
+  SampleObserver sample_observer_;
+  /// Switch the samples of an emulated drive on and off: drives that nobody looks at compute less.
+  std::vector<std::function<void(bool on)>> sampling_;
+  std::map<std::string, Injector> injectors_;
+};
+
+}  // namespace interpolated_motion::hardware

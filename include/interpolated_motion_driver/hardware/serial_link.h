@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/hardware/bus_link.h"
+#include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_master.h"
+#include "interpolated_motion_driver/transport/serial_line.h"
+
+namespace interpolated_motion::hardware {
+
+/// One serial line with its SilverLode master. It has no start signal: its drives are told beforehand when to
+/// begin.
+class SerialLink : public BusLink {
+ public:
+  /// `line` must outlive the link.
+  SerialLink(const BusConfiguration& configuration, transport::SerialLine& line);
+
+  silverlode::LineMaster& master() { return master_; }
+  const std::string& name() const override { return master_.line_name(); }
+
+  void receive(const WireObserver& observer) override;
+  void poll(HostTime now) override { master_.poll(now); }
+  void send(HostTime now) override;
+  HostTime next_deadline() const override { return master_.next_deadline(); }
+  void signal(HostTime) override {}
+
+  motion::BusSnapshot snapshot() const override;
+  double peak_load() const override { return peak_load_; }
+  void reset_peak_load() override { peak_load_ = 0.0; }
+  std::vector<std::string> unexpected_traffic() const override;
+
+  /// Share of the line that one segment takes, s: the longest IMW with its ACK.
+  double record_bus_time() const;
+
+ private:
+  void show_sent(const WireObserver& observer);
+
+  transport::SerialLine& line_;
+  silverlode::LineMaster master_;
+  double max_load_;
+  std::string received_;  ///< the line being received
+  struct Sent {
+    std::string text;
+    HostTime time{};
+  };
+  std::vector<Sent> sent_;  ///< not yet shown to the observer
+  std::uint64_t requests_ = 0;
+  std::uint64_t replies_ = 0;
+  double peak_load_ = 0.0;
+};
+
+}  // namespace interpolated_motion::hardware

@@ -1,0 +1,182 @@
+#include "interpolated_motion_driver/hardware/assembly.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/axis/epos_axis.h"
+#include "interpolated_motion_driver/axis/silverlode_axis.h"
+#include "interpolated_motion_driver/hardware/fault_injection.h"
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+axis::EposAxisParameters epos_parameters(const Configuration& configuration, const DriveConfiguration& drive,
+                                         const BusConfiguration& bus, double record_bus_time) {
+  axis::EposAxisParameters parameters;
+  parameters.joint = drive.joint;
+  parameters.transmission = drive.transmission;
+  parameters.limits = drive.limits;
+  parameters.deviation_bound = drive.deviation_bound;
+  parameters.limit_margin = drive.limit_margin;
+  parameters.max_following_error = drive.max_following_error;
+  parameters.commit_horizon = configuration.commit_horizon;
+  parameters.record_bus_time = record_bus_time;
+  parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
+  parameters.clock_discipline = bus.clock_discipline;
+  parameters.heartbeat_period = host_duration(bus.heartbeat_period);
+  parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
+  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
+  return parameters;
+}
+
+axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& configuration,
+                                                     const DriveConfiguration& drive, double record_bus_time,
+                                                     double start_lead) {
+  axis::SilverlodeAxisParameters parameters;
+  parameters.joint = drive.joint;
+  parameters.transmission = drive.transmission;
+  parameters.limits = drive.limits;
+  parameters.deviation_bound = drive.deviation_bound;
+  parameters.limit_margin = drive.limit_margin;
+  parameters.max_following_error = drive.max_following_error;
+  parameters.commit_horizon = configuration.commit_horizon;
+  parameters.record_bus_time = record_bus_time;
+  parameters.start_lead = start_lead;
+  parameters.scale = drive.silverlode.scale;
+  parameters.command_scale = drive.silverlode.command_scale;
+  parameters.ims_arguments = drive.silverlode.ims_arguments;
+  parameters.queue_depth = drive.silverlode.queue_depth;
+  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
+  return parameters;
+}
+
+/// From the start command to the begin of the path each drive of a line needs the time of IMS and of a few
+/// segments.
+double start_lead(const BusConfiguration& bus, const Configuration& configuration, double record_bus_time) {
+  constexpr double kRecordsOfStart = 4.0;
+  const auto drives =
+      std::count_if(configuration.drives.begin(), configuration.drives.end(),
+                    [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; });
+  return bus.serial.start_lead + kRecordsOfStart * static_cast<double>(drives) * record_bus_time;
+}
+
+}  // namespace
+
+Assembly::Assembly(const Configuration& configuration, HostTime start) : world_(start) {
+  for (const BusConfiguration& bus : configuration.buses) {
+    bus_configurations_[bus.name] = bus;
+    bus.type == BusType::Canopen ? add_can_bus(bus) : add_serial_line(bus);
+  }
+  audits_.reserve(configuration.drives.size());
+  for (const DriveConfiguration& drive : configuration.drives) {
+    drive.type == DriveType::EposIpm ? add_epos(configuration, drive) : add_silverlode(configuration, drive);
+  }
+}
+
+void Assembly::add_can_bus(const BusConfiguration& bus) {
+  transport::VirtualCanBus& wire = world_.add_can_bus(bus.name, static_cast<int>(bus.bitrate));
+  auto link = std::make_unique<CanLink>(bus, wire.host());
+  virtual_can_buses_[bus.name] = &wire;
+  can_links_[bus.name] = link.get();
+  links_.push_back(std::move(link));
+  injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
+    return inject_bus_fault(wire, command, now, reason);
+  };
+}
+
+void Assembly::add_serial_line(const BusConfiguration& bus) {
+  transport::SerialLineParameters parameters;
+  parameters.baud = static_cast<int>(bus.serial.line.baud);
+  parameters.bits_per_character = bus.serial.line.bits_per_character;
+  parameters.wiring = bus.serial.wiring;
+  transport::VirtualSerialLine& wire = world_.add_serial_line(bus.name, parameters);
+  auto link = std::make_unique<SerialLink>(bus, wire.host());
+  virtual_lines_[bus.name] = &wire;
+  serial_links_[bus.name] = link.get();
+  links_.push_back(std::move(link));
+  injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
+    return inject_line_fault(wire, command, now, reason);
+  };
+}
+
+void Assembly::add_epos(const Configuration& configuration, const DriveConfiguration& drive) {
+  CanLink& link = *can_links_.at(drive.bus);
+  canopen::NodeLink& node = link.master().add_node(static_cast<std::uint8_t>(drive.node_id));
+  const std::size_t index = axes_.size();
+  axes_.push_back(std::make_unique<axis::EposAxis>(
+      epos_parameters(configuration, drive, bus_configurations_.at(drive.bus), link.record_bus_time()),
+      link.master(), node));
+  audits_.emplace_back(drive.transmission, *axes_.back());
+  if (!drive.emulation.missing) emulate_epos(drive, index);
+}
+
+void Assembly::emulate_epos(const DriveConfiguration& drive, std::size_t index) {
+  emulation::EposDrive& emulated = world_.add_epos(*virtual_can_buses_.at(drive.bus), drive.emulation.drive);
+  sampling_.push_back([this, index, &emulated](bool on) {
+    if (!on) return emulated.set_sample_observer({});
+    emulated.set_sample_observer([this, index](const emulation::EposSample& sample) {
+      const double elapsed = 1e-3 * static_cast<double>(sample.samples_since_start);
+      if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
+    });
+  });
+  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
+    return inject_drive_fault(emulated, command, now, reason);
+  };
+}
+
+void Assembly::add_silverlode(const Configuration& configuration, const DriveConfiguration& drive) {
+  SerialLink& link = *serial_links_.at(drive.bus);
+  silverlode::DeviceLink& device =
+      link.master().add_device(static_cast<std::uint8_t>(drive.silverlode.address));
+  const std::size_t index = axes_.size();
+  const double record_bus_time = link.record_bus_time();
+  const double lead = start_lead(bus_configurations_.at(drive.bus), configuration, record_bus_time);
+  axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
+      silverlode_parameters(configuration, drive, record_bus_time, lead), link.master(), device));
+  audits_.emplace_back(drive.transmission, *axes_.back());
+  if (!drive.emulation.missing) emulate_silverlode(drive, index);
+}
+
+void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t index) {
+  emulation::SilverDust& emulated =
+      world_.add_silverdust(*virtual_lines_.at(drive.bus), drive.silverlode.emulated);
+  const double tick = drive.silverlode.scale.tick;
+  sampling_.push_back([this, index, tick, &emulated](bool on) {
+    if (!on) return emulated.set_sample_observer({});
+    emulated.set_sample_observer([this, index, tick](const emulation::SilverDustSample& sample) {
+      const double elapsed = tick * static_cast<double>(sample.ticks_since_start);
+      if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
+    });
+  });
+  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
+    return inject_drive_fault(emulated, command, now, reason);
+  };
+}
+
+void Assembly::begin_audits(const std::vector<trajectory::Path>& paths) {
+  for (std::size_t i = 0; i < audits_.size(); ++i) audits_[i].begin(paths[i]);
+  for (const auto& sample : sampling_) sample(true);
+}
+
+void Assembly::end_audits() {
+  for (PathAudit& audit : audits_) audit.end();
+  for (const auto& sample : sampling_) sample(false);
+}
+
+void Assembly::take(std::size_t joint, const DemandSample& sample) {
+  audits_[joint].add(sample.drive_seconds, sample.demand);
+  if (sample_observer_) sample_observer_(joint, sample);
+}
+
+bool Assembly::inject(const std::string& target, const std::string& command, HostTime now,
+                      std::string* reason) {
+  const auto found = injectors_.find(target);
+  if (found != injectors_.end()) return found->second(command, now, reason);
+  *reason = fmt::format("\"{}\" is neither a joint with an emulated drive nor an emulated bus", target);
+  return false;
+}
+
+}  // namespace interpolated_motion::hardware

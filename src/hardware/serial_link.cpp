@@ -1,0 +1,74 @@
+#include "interpolated_motion_driver/hardware/serial_link.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+/// A line without an end is shown in pieces of this many characters.
+constexpr std::size_t kLongestLine = 200;
+
+}  // namespace
+
+SerialLink::SerialLink(const BusConfiguration& configuration, transport::SerialLine& line)
+    : line_(line),
+      master_(configuration.name, configuration.serial.line),
+      max_load_(configuration.max_load) {}
+
+void SerialLink::receive(const WireObserver& observer) {
+  show_sent(observer);
+  while (const auto character = line_.receive()) {
+    master_.on_character(character->value, character->time);
+    if (character->value != '\r') received_ += character->value;
+    if (character->value != '\r' && received_.size() < kLongestLine) continue;
+    ++replies_;
+    if (observer.text) observer.text(name(), {received_, character->time, false});
+    received_.clear();
+  }
+}
+
+void SerialLink::show_sent(const WireObserver& observer) {
+  if (observer.text) {
+    for (const Sent& sent : sent_) observer.text(name(), {sent.text, sent.time, true});
+  }
+  sent_.clear();
+}
+
+void SerialLink::send(HostTime now) {
+  while (const auto text = master_.peek_outgoing(now)) {
+    if (!line_.send(*text, now)) break;
+    ++requests_;
+    sent_.push_back(
+        {std::string(text->substr(0, text->find('\r'))), now + master_.characters_time(text->size())});
+    master_.pop_outgoing(now);
+  }
+  peak_load_ = std::max(peak_load_, master_.load(now));
+}
+
+motion::BusSnapshot SerialLink::snapshot() const {
+  motion::BusSnapshot snapshot{name(), master_.load(), requests_, replies_, 0};
+  for (int cause = 0; cause < silverlode::kUnexpectedLineCauses; ++cause)
+    snapshot.unexpected += master_.unexpected(static_cast<silverlode::UnexpectedLine>(cause)).count;
+  return snapshot;
+}
+
+std::vector<std::string> SerialLink::unexpected_traffic() const {
+  std::vector<std::string> texts;
+  for (int cause = 0; cause < silverlode::kUnexpectedLineCauses; ++cause) {
+    std::string text = master_.unexpected_text(static_cast<silverlode::UnexpectedLine>(cause));
+    if (!text.empty()) texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+double SerialLink::record_bus_time() const {
+  // Time of up to 5 digits, position and velocity of 10, acceleration of 7: more than that is not physical.
+  const auto longest = silverlode::imw_request(254, 65536, std::numeric_limits<std::int32_t>::min(), 1 << 23,
+                                               std::numeric_limits<std::int32_t>::max());
+  return seconds(master_.exchange_time(longest)) / max_load_;
+}
+
+}  // namespace interpolated_motion::hardware

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hardware/fault_in_motion.h"
+
+namespace interpolated_motion::test {
+namespace {
+
+using motion::GoalOutcome;
+using motion::GroupState;
+
+/// Longest until a look at a drive reveals a fault: three drives share a line that segments keep busy.
+constexpr double kNotice = 0.5;
+
+class SilverlodeFaultInMotion : public FaultInMotion {
+ protected:
+  void move(const std::string& changes = "", double for_seconds = 2.0) {
+    FaultInMotion::move(six_axis_silverlode(changes), for_seconds);
+  }
+};
+
+TEST_F(SilverlodeFaultInMotion, FaultOfOneDriveStopsTheGroup) {
+  move();
+  inject("joint3", "fault moving_error");
+  expect_stop("Joint joint3 (line0 address 18)", kNotice);
+  expect_recovery();
+}
+
+TEST_F(SilverlodeFaultInMotion, BlockedAxisStopsTheGroupWithAMovingError) {
+  move("{drives: {joint2: {max_following_error: 0.02}}}");
+  inject("joint2", "stall 1");
+  expect_stop("moving error", 1.0);
+  inject("joint2", "stall 0");
+  scenario->run(1.0);
+  expect_recovery();
+}
+
+TEST_F(SilverlodeFaultInMotion, RestartOfADriveStopsTheGroup) {
+  move();
+  inject("joint5", "power_cycle 0.1");
+  expect_stop("Joint joint5 (line1 address 20)", 1.0, 4);
+  scenario->run(2.0);
+  expect_recovery();
+}
+
+TEST_F(SilverlodeFaultInMotion, LostDriveStopsTheGroupAndRunsDryByItself) {
+  move();
+  inject("joint1", "silence 1");
+  expect_stop("Joint joint1", 1.0, 0);
+  inject("joint1", "silence 0");
+  scenario->run(3.0);
+  const double rest = scenario->positions()[0];
+  scenario->run(1.0);
+  EXPECT_NEAR(scenario->positions()[0], rest, 1e-6) << "register 19 has not stopped the drive";
+  expect_recovery();
+}
+
+TEST_F(SilverlodeFaultInMotion, CutCableStopsEveryDriveOfTheLineByItself) {
+  move();
+  inject("line0", "disconnect 1");
+  const auto result = scenario->result_of(goal);
+  EXPECT_EQ(result.outcome, GoalOutcome::Aborted);
+  scenario->run(3.0);
+  inject("line0", "disconnect 0");
+  expect_recovery();
+}
+
+TEST_F(SilverlodeFaultInMotion, GarbageOnTheLineIsSurvived) {
+  move();
+  for (int i = 0; i < 5; ++i) {
+    inject("line0", "garbage xyz!* 10");
+    scenario->run(0.05);
+  }
+  const auto result = scenario->result_of(goal);
+  if (result.outcome == GoalOutcome::Succeeded) {
+    for (const auto& joint : scenario->driver().report().joints) EXPECT_LE(joint.worst_deviation, 2.0);
+  } else {
+    EXPECT_TRUE(contains(result.text, "cannot be known")) << result.text;
+  }
+}
+
+// Characters vanish on their way to the host at any time: replies to status, to segments, to anything. Either
+// the path is followed to the end, every tick of it, or the group stops with a sentence that says why; never
+// does a segment get lost or into a queue twice.
+class LostReplies : public testing::TestWithParam<unsigned> {};
+
+TEST_P(LostReplies, LeadToThePathOrToAStop) {
+  std::mt19937 random(GetParam());
+  Scenario scenario(six_axis_silverlode());
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  const auto accepted = scenario.submit(load_goal(goal_file("six_axis_toppra_100ms_pva.yaml")));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+  const bool requests = random() % 2 == 0;
+  for (int i = 0; i < 3 && scenario.state() == GroupState::Moving; ++i) {
+    scenario.run(0.3 + 1e-3 * static_cast<double>(random() % 1000));
+    std::string reason;
+    const std::string command = requests ? "lose_requests " : "lose_replies ";
+    ASSERT_TRUE(scenario.driver().inject(random() % 2 == 0 ? "line0" : "line1",
+                                         command + std::to_string(1 + random() % 20), &reason,
+                                         scenario.now()))
+        << reason;
+  }
+  const auto result = scenario.result_of(accepted.value().id);
+  for (const auto& joint : scenario.driver().report().joints)
+    EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
+  if (result.outcome == GoalOutcome::Succeeded) return;
+  EXPECT_EQ(result.outcome, GoalOutcome::Aborted);
+  EXPECT_TRUE(contains(result.text, "cannot be known") || contains(result.text, "garbled") ||
+              contains(result.text, "does not answer") || contains(result.text, "no reply"))
+      << result.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, LostReplies, testing::Range(0U, 24U));
+
+TEST(SilverlodeBringUp, MissingDriveIsNamed) {
+  Scenario scenario(six_axis_silverlode("{drives: {joint2: {emulation: {missing: true}}}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Fault, 20.0));
+  EXPECT_TRUE(contains(scenario.snapshot().fault, "Joint joint2 (line0 address 17)"))
+      << scenario.snapshot().fault;
+  EXPECT_TRUE(contains(scenario.snapshot().fault, "no drive answers")) << scenario.snapshot().fault;
+}
+
+// The configuration has two addresses, but the switches of the second drive are those of the first.
+TEST(SilverlodeBringUp, TwoDrivesOnOneAddressAreNoticed) {
+  Scenario scenario(six_axis_silverlode(
+      "{drives: {joint2: {emulation: {address: 16, initial_position: 1.0, clock_error_ppm: 50}}}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Fault, 30.0));
+  EXPECT_TRUE(contains(scenario.snapshot().fault, "address 1")) << scenario.snapshot().fault;
+}
+
+TEST(SilverlodeBringUp, DepthOfTheQueueIsMeasured) {
+  Scenario scenario(six_axis_silverlode("{drives: {joint1: {emulation: {queue_depth: 4}}}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  EXPECT_EQ(scenario.snapshot().joints[0].capacity, 4U);
+  EXPECT_EQ(scenario.snapshot().joints[1].capacity, 8U);
+}
+
+TEST(SilverlodeBringUp, OldRevisionWithoutMultiRegisterReadsWorks) {
+  const std::string old = "{emulation: {multi_register_read: false, queue_depth: 4, revision: 5}}";
+  std::string changes;
+  for (int i = 1; i <= 6; ++i) changes += (i > 1 ? ", joint" : "joint") + std::to_string(i) + ": " + old;
+  Scenario scenario(six_axis_silverlode("{drives: {" + changes + "}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  const auto accepted = scenario.submit(make_goal({2.0}, {{0.5, 0.4, 0.3, 0.2, 0.1, -0.5}}));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, GoalOutcome::Succeeded);
+}
+
+}  // namespace
+}  // namespace interpolated_motion::test
