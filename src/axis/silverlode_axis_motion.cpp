@@ -253,7 +253,7 @@ void SilverlodeAxis::poll_moving(HostTime now) {
   if (phase_ != Phase::Moving) return;
   feed(now);
   if (phase_ != Phase::Moving) return;
-  if (!feed_.all_sent() && second_wait_made_) {
+  if (!feed_.all_sent() && now >= begin_) {
     const auto fill = feed_.waiting(clock_.elapsed(now), true);
     minimum_fill_ = std::min(minimum_fill_, static_cast<std::uint32_t>(fill));
   }

@@ -4,27 +4,15 @@ import os
 import sys
 import unittest
 
-import rospkg
 import rospy
 import rostest
-import yaml
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryResult
 from sensor_msgs.msg import JointState
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from driver_client import Driver, Latest, goal, point  # noqa: E402
-
-JOINTS = ['joint%d' % i for i in range(1, 7)]
-
-
-def goal_from_file(name):
-    path = os.path.join(rospkg.RosPack().get_path('interpolated_motion_driver'), 'config', 'goals', name)
-    with open(path) as file:
-        data = yaml.safe_load(file)
-    points = [point(p['time_from_start']['secs'] + 1e-9 * p['time_from_start']['nsecs'], p['positions'],
-                    p.get('velocities', []), p.get('accelerations', [])) for p in data['points']]
-    return goal(data['joint_names'], points)
+from driver_client import Driver, Latest  # noqa: E402
+from goal_files import JOINTS, goal_from_file  # noqa: E402
 
 
 class SingleGoal(unittest.TestCase):
