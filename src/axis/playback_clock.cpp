@@ -4,7 +4,8 @@
 
 namespace interpolated_motion::axis {
 
-PlaybackClock::PlaybackClock(double max_error, double sample) : max_error_(max_error), sample_(sample) {}
+PlaybackClock::PlaybackClock(double max_error, double sample, Estimate estimate)
+    : max_error_(max_error), sample_(sample), estimate_(estimate) {}
 
 void PlaybackClock::start(HostTime start, bool follows_host) {
   running_ = true;
@@ -15,7 +16,9 @@ void PlaybackClock::start(HostTime start, bool follows_host) {
 }
 
 double PlaybackClock::rate() const {
-  return follows_host_ ? 1.0 : std::clamp(1.0, lowest_rate_, highest_rate_);
+  if (follows_host_) return 1.0;
+  if (estimate_ == Estimate::Middle) return 0.5 * (lowest_rate_ + highest_rate_);
+  return std::clamp(1.0, lowest_rate_, highest_rate_);
 }
 
 double PlaybackClock::elapsed(HostTime when) const {

@@ -88,6 +88,11 @@ double SegmentFeed::next_begin(double elapsed) const {
   return tick_ * static_cast<double>(now.begin + now.ticks);
 }
 
+double SegmentFeed::begin_of(std::size_t number) const {
+  const std::size_t forgotten = sent_ - stretches_.size();
+  return tick_ * static_cast<double>(stretches_[number - forgotten].begin);
+}
+
 std::optional<SegmentFeed::Instant> SegmentFeed::instant_of(std::int64_t ticks_left, double expected) const {
   std::optional<Instant> nearest;
   for (const Stretch& stretch : stretches_) {

@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/queue_delivery.h"
+#include "interpolated_motion_driver/axis/register_delivery.h"
+
 namespace interpolated_motion::axis {
 
 using namespace std::chrono_literals;
@@ -32,6 +35,13 @@ void require_finite(const SilverlodeAxisParameters& parameters, double value, co
       parameters.joint, name, value));
 }
 
+std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& parameters,
+                                               const DeliveryContext& context) {
+  if (parameters.queue == SegmentQueue::Registers)
+    return std::make_unique<RegisterDelivery>(context, parameters.segment_registers);
+  return std::make_unique<QueueDelivery>(context, static_cast<std::size_t>(parameters.queue_depth));
+}
+
 }  // namespace
 
 SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
@@ -41,7 +51,9 @@ SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::
       device_(device),
       sequence_(device),
       status_(device, parameters_.transmission),
-      clock_(parameters_.max_clock_error, seconds(parameters_.execution_time)) {
+      clock_(parameters_.max_clock_error, 0.5 * seconds(parameters_.execution_time),
+             PlaybackClock::Estimate::Middle),
+      delivery_(make_delivery(parameters_, {line_, device_, sequence_, feed_, clock_})) {
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");
   encoding().validate();
@@ -140,9 +152,8 @@ HostTime SilverlodeAxis::next_deadline() const {
 void SilverlodeAxis::take_outcomes(HostTime now) {
   last_poll_ = now;
   while (const auto outcome = device_.take_outcome()) {
-    if (outcome->id == segment_id_) {
-      segment_id_ = silverlode::kNoRequest;
-      take_delivery(*outcome, now);
+    if (delivery_->owns(*outcome)) {
+      if (const auto failure = delivery_->take(*outcome, now)) fail_in_motion(*failure, now);
     } else if (outcome->id == start_id_) {
       start_id_ = silverlode::kNoRequest;
       take_start(*outcome, now);
@@ -274,12 +285,9 @@ std::string SilverlodeAxis::who() const {
   return fmt::format("Joint {} ({})", parameters_.joint, device_.name());
 }
 
-std::string SilverlodeAxis::description() const {
-  return fmt::format("{}: SilverLode drive, revision {}, queue of {} segments", who(), revision_, depth_);
-}
-
 void SilverlodeAxis::fail(const std::string& reason, HostTime now) {
   fault_text_ = fmt::format("{}: {}.", who(), reason);
+  delivery_->give_up();
   device_.drop_requests();
   sequence_.cancel();
   enter(Phase::Fault, now);
@@ -289,53 +297,6 @@ void SilverlodeAxis::go_offline(const std::string& reason, HostTime now) {
   fail(reason, now);
   configured_ = false;
   enter(Phase::Offline, now);
-}
-
-double SilverlodeAxis::rest_position() const {
-  return parameters_.transmission.joint_position(is_enabled() ? rest_counts_ : status_.actual_counts());
-}
-
-void SilverlodeAxis::status(HostTime now, AxisStatus& out) const {
-  const double elapsed = clock_.elapsed(now);
-  const bool playing = is_motion_phase() && feed_.loaded();
-  out.online = phase_ != Phase::Offline && phase_ != Phase::Probing;
-  out.state = state_text();
-  out.statusword = status_.polling.raw;
-  out.mode = 0;
-  out.demand_position = demand_at(now);
-  out.following_error = demand_at(feedback().time) - feedback().position;
-  out.error_code = status_.polling.fault() ? status_.polling.raw : std::uint16_t{0};
-  out.error_text = status_.polling.fault() ? status_.polling.text() : std::string();
-  out.capacity = static_cast<std::uint32_t>(depth_);
-  out.fill = feed_.loaded() && (playing || phase_ == Phase::Loaded)
-                 ? static_cast<std::uint32_t>(feed_.waiting(elapsed, clock_.running()))
-                 : 0;
-  out.fill_time = playing ? std::max(0.0, feed_.queue_end() - elapsed) : 0.0;
-  out.underflow_warning = playing && !feed_.all_sent() && out.fill == 0;
-  out.overflow_warning = false;
-  out.velocity_warning = false;
-  out.acceleration_warning = false;
-  out.underruns = underruns_;
-  out.overflows = 0;
-  out.refused_writes = refused_writes_;
-  out.records_sent = records_sent_;
-  out.clock_error_ppm = clock_error_ppm_;
-}
-
-/// Where the drive's demand is at `when`, rad.
-double SilverlodeAxis::demand_at(HostTime when) const {
-  return is_motion_phase() ? feed_.path().sample(playback(when)).position : rest_position();
-}
-
-std::string SilverlodeAxis::state_text() const {
-  if (phase_ == Phase::Fault || status_.polling.fault()) return "Fault";
-  if (phase_ == Phase::Offline || phase_ == Phase::Probing) return "Offline";
-  if (is_motion_phase()) return "Interpolated motion";
-  return is_enabled() ? "Driver enabled" : "Driver disabled";
-}
-
-AxisReport SilverlodeAxis::report() const {
-  return {feed_.sent(), minimum_fill_, underruns_ - underruns_at_load_, refused_writes_ - refused_at_load_};
 }
 
 }  // namespace interpolated_motion::axis

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,186 +8,32 @@
 
 namespace interpolated_motion::axis {
 
+// A drive in motion: feeding, what it executes and reports, its clock, and the end.
+
 using namespace std::chrono_literals;
-namespace registers = silverlode::registers;
-using silverlode::NakCode;
-using silverlode::Outcome;
 
 namespace {
 
-/// Longest for one segment to get over the line before the motion.
-constexpr HostDuration kFillTimeout = 5s;
 /// Longest the drive may take beyond the duration of its segments, for the error of its clock and the report.
 constexpr HostDuration kOvertime = 500ms;
-/// After a queue was full that should not have been, the clock of the drive may be a little off.
-constexpr HostDuration kRetryInterval = 5ms;
 /// An error of play-back time is made good within about this time, s.
 constexpr double kCatchUpTime = 2.0;
-/// Of the lead, the part that the first segment of waiting takes; the second one takes the rest.
-constexpr double kFirstWait = 0.5;
-/// Share of the lead that may be gone when the axis is told the begin.
-constexpr double kLatestTold = 0.3;
 /// A look at the drive's clock that differs more than this (s) from what is expected is none.
 constexpr double kPlausible = 0.02;
-/// Times in a row that a drive may refuse a segment as unreadable.
-constexpr int kMisunderstood = 3;
 /// Looks in a row that must contradict what was sent: one may fall between two segments.
 constexpr int kMisfits = 2;
-/// Segments that are kept in the queue however short the horizon.
-constexpr std::size_t kLeastAhead = 2;
 
 }  // namespace
 
-// ---- plan and load
-// -----------------------------------------------------------------------------------------------------------------
-
-encoding::ImsEncoding SilverlodeAxis::encoding() const {
-  encoding::ImsEncoding encoding;
-  encoding.joint = parameters_.joint;
-  encoding.transmission = parameters_.transmission;
-  encoding.scale = parameters_.scale;
-  encoding.bound_counts = parameters_.deviation_bound;
-  encoding.max_motor_rpm = parameters_.scale.velocity_full_scale_rpm;
-  encoding.max_motor_acceleration =
-      parameters_.limit_margin *
-      std::abs(parameters_.transmission.motor_rpm(parameters_.limits.max_acceleration));
-  return encoding;
-}
-
-std::optional<Refusal> SilverlodeAxis::plan(const trajectory::Path& path, GoalTime) {
-  const auto stream = encoding::encode_ims(path, encoding(), rest_counts_);
-  if (!stream) return stream.error();
-  planned_path_ = path;
-  planned_slots_ = slots_of(stream.value(), path.start_time());
-  return std::nullopt;
-}
-
-// A segment must be there when the one before it has been executed. Its place becomes free when the drive
-// begins the segment `depth_` before it; the first ones are there when the path begins.
-std::vector<RecordSlot> SilverlodeAxis::slots_of(const encoding::ImsStream& stream, GoalTime start) const {
-  std::vector<double> begins{0.0};
-  for (const ImsSegment& segment : stream.segments) begins.push_back(begins.back() + segment.time * tick());
-  std::vector<RecordSlot> slots(begins.size());
-  for (std::size_t i = 0; i < begins.size(); ++i) {
-    const double place_free = i < depth_ ? 0.0 : begins[i - depth_];
-    const double in_horizon = i < kLeastAhead ? 0.0 : begins[i] - parameters_.commit_horizon;
-    const double soon_enough = i < kLeastAhead ? 0.0 : begins[i - kLeastAhead];
-    slots[i].release = start + GoalTime{std::max(place_free, std::min(in_horizon, soon_enough))};
-    slots[i].deadline = start + GoalTime{begins[i]};
-  }
-  return slots;
-}
-
-void SilverlodeAxis::load(HostTime now) {
-  feed_.load(planned_path_, encoding(), rest_counts_, depth_);
-  feed_.wait(std::llround(kFirstWait * parameters_.start_lead / tick()));
-  finished_ = false;
-  begin_ = kNever;
-  second_wait_made_ = false;
-  delivery_ = Delivery::None;
-  misfits_ = 0;
-  misunderstood_ = 0;
-  clock_.stop();
-  underruns_at_load_ = underruns_;
-  refused_at_load_ = refused_writes_;
-  enter(Phase::Clearing, now);
-  auto steps = clear_status();
-  steps.push_back({silverlode::imq_request(device_.address()), {}});
-  steps.push_back(
-      {silverlode::rrg_request(device_.address(), registers::kImsDeceleration), store(read_deceleration_)});
-  steps.push_back(
-      {silverlode::rrg_request(device_.address(), registers::kTargetPosition), store(read_target_)});
-  sequence_.start(std::move(steps), now);
-}
-
-void SilverlodeAxis::poll_clearing(HostTime now) {
-  if (!sequence_done(now)) return;
-  if (read_deceleration_ != underrun_deceleration()) {
-    return go_offline(
-        "the drive has restarted: register 19 is not as it was set, and its position may be lost too", now);
-  }
-  if (read_target_ != rest_counts_) {
-    return fail(
-        fmt::format("its target was {} counts when the goal was planned and is {} counts now: something else "
-                    "moves this drive",
-                    rest_counts_, read_target_),
-        now);
-  }
-  enter(Phase::Filling, now);
-}
-
-void SilverlodeAxis::poll_filling(HostTime now) {
-  if (feed_.sent() == 1) {
-    minimum_fill_ = static_cast<std::uint32_t>(depth_);
-    return enter(Phase::Loaded, now);
-  }
-  offer(now);
-  if (phase_ == Phase::Filling && expired(now, kFillTimeout))
-    fail("its first segment does not get over the line: is the line overloaded or down?", now);
-}
-
-// ---- start
-// -------------------------------------------------------------------------------------------------------------------------
-
-void SilverlodeAxis::arm(HostTime begin, HostTime now) {
-  if (phase_ != Phase::Loaded) return;
-  if (seconds(begin - now) < (1.0 - kLatestTold) * parameters_.start_lead) {
-    return fail(
-        fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s before: the "
-                    "host has stalled",
-                    seconds(begin - now), parameters_.start_lead),
-        now);
-  }
-  begin_ = begin;
-  enter(Phase::Starting, now);
-  start_id_ = device_.request(silverlode::ims_request(device_.address(), parameters_.ims_arguments));
-}
-
-// Without an answer to IMS it is not known whether the drive has begun; it only waits so far, so it is
-// stopped.
-void SilverlodeAxis::take_start(const Outcome& outcome, HostTime now) {
-  if (phase_ != Phase::Starting) return;
-  if (!outcome.accepted()) return fail_in_motion(device_.text(outcome), now);
-  clock_.start(outcome.request_end);
-  enter(Phase::Moving, now);
-  make_second_wait(now);
-}
-
-void SilverlodeAxis::poll_starting(HostTime now) {
-  if (expired(now, kFillTimeout)) fail_in_motion("IMS does not get over the line", now);
-}
-
-/// The waiting that is left until the path begins, by what the drive's clock is known to do.
-void SilverlodeAxis::make_second_wait(HostTime now) {
-  const double until_begin = seconds(begin_ - clock_.start_time()) * drive_rate();
-  const auto ticks = std::llround((until_begin - feed_.queue_end()) / tick());
-  if (ticks < 1) return fail_in_motion("the start command came too late for the common start", now);
-  feed_.wait(ticks);
-  second_wait_made_ = true;
-}
-
-// ---- feeding
-// -----------------------------------------------------------------------------------------------------------------------
-
 void SilverlodeAxis::feed(HostTime now) {
-  if (!second_wait_made_ || feed_.all_sent()) return;
+  if (!second_wait_made_) return;
   const bool few = feed_.waiting(clock_.elapsed(now), true) < kLeastAhead;
   const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < parameters_.commit_horizon;
-  if (few || within_horizon) offer(now);
+  offer(!feed_.all_sent() && (few || within_horizon), now);
 }
 
-/// Offers the next segment to the line, when the drive has a place for it.
-void SilverlodeAxis::offer(HostTime now) {
-  if (segment_id_ != silverlode::kNoRequest || now < retry_at_) return;
-  const bool repeat = delivery_ == Delivery::Unknown;
-  if (!repeat && !feed_.has_place(clock_.least_elapsed(now), clock_.running())) return;
-  const auto segment = feed_.next(rate_for_next());
-  if (!segment) return fail_in_motion(segment.error().text, now);
-  const ImsSegment& s = segment.value();
-  const HostTime deadline = clock_.running() ? clock_.host_time(feed_.queue_end()) : now;
-  segment_id_ = device_.offer_bulk(
-      silverlode::imw_request(device_.address(), s.time, s.position, s.acceleration, s.velocity), deadline);
-  if (segment_id_ != silverlode::kNoRequest) delivery_ = repeat ? Delivery::SentAgain : Delivery::Sent;
+void SilverlodeAxis::offer(bool more, HostTime now) {
+  if (const auto failure = delivery_->offer(more, rate_for_next(), now)) fail_in_motion(*failure, now);
 }
 
 /// Goal seconds per drive second for the next segment: the drive's own rate made good, and what it is ahead
@@ -202,51 +47,6 @@ double SilverlodeAxis::rate_for_next() const {
   const double rate = 1.0 / drive_rate + behind / kCatchUpTime;
   return std::clamp(rate, 1.0 - 2.0 * parameters_.max_clock_error, 1.0 + 2.0 * parameters_.max_clock_error);
 }
-
-void SilverlodeAxis::take_delivery(const Outcome& outcome, HostTime now) {
-  const Delivery delivery = std::exchange(delivery_, Delivery::None);
-  if (outcome.kind == silverlode::OutcomeKind::Dropped || delivery == Delivery::None) return;
-  const bool was_in = delivery == Delivery::SentAgain && outcome.refused_with(NakCode::BufferFull);
-  if (outcome.accepted() || was_in) {
-    feed_.mark_sent();
-    ++records_sent_;
-    misunderstood_ = 0;
-    return;
-  }
-  if (outcome.unknown()) return resolve_unknown(outcome, now);
-  ++refused_writes_;
-  retry_at_ = now + kRetryInterval;
-  if (outcome.refused_with(NakCode::BufferFull)) return;
-  // Refused for any other reason it is not in the queue either; it may have been garbled on its way.
-  if (++misunderstood_ > kMisunderstood) fail_in_motion(device_.text(outcome), now);
-}
-
-void SilverlodeAxis::resolve_unknown(const Outcome& outcome, HostTime now) {
-  if (full_queue_would_tell(now)) {
-    delivery_ = Delivery::Unknown;
-    return;
-  }
-  fail_in_motion(device_.text(outcome) +
-                     ". Whether the segment is in the drive's queue cannot be known, and sent twice it would "
-                     "bend the path",
-                 now);
-}
-
-/// The segment of unknown fate fills the last place, and the drive begins no other segment before it has
-/// answered to the repetition.
-bool SilverlodeAxis::full_queue_would_tell(HostTime now) const {
-  const auto repetition = silverlode::imw_request(
-      device_.address(), std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min(),
-      std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max());
-  const bool started = clock_.running();
-  const HostTime answered = now + 2 * line_.longest_exchange_time(repetition);
-  const double next_begin = feed_.next_begin(clock_.least_elapsed(now));
-  const bool fills_last_place = feed_.waiting(clock_.least_elapsed(now), started) + 1 == depth_;
-  return started && fills_last_place && clock_.most_elapsed(answered) < next_begin;
-}
-
-// ---- moving
-// ---------------------------------------------------------------------------------------------------------------------
 
 void SilverlodeAxis::poll_moving(HostTime now) {
   if (auto look = std::exchange(status_.execution, std::nullopt)) take_execution(*look, now);
@@ -344,53 +144,6 @@ GoalTime SilverlodeAxis::playback(HostTime when) const {
   if (clock_.running() && second_wait_made_) return feed_.goal_time_at(clock_.elapsed(when));
   if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - phase_since_)};
   return feed_.path().start_time() - GoalTime{parameters_.start_lead};
-}
-
-// ---- stopping
-// ---------------------------------------------------------------------------------------------------------------------
-
-void SilverlodeAxis::stop(HostTime now) {
-  if (device_.withdraw_bulk()) segment_id_ = silverlode::kNoRequest;
-  switch (phase_) {
-    case Phase::Starting:
-    case Phase::Moving:
-      delivery_ = Delivery::None;
-      enter(Phase::Braking, now);
-      return start_braking(now);
-    case Phase::Clearing:
-    case Phase::Filling:
-    case Phase::Loaded:
-      delivery_ = Delivery::None;
-      enter(Phase::Emptying, now);
-      return sequence_.start({{silverlode::imq_request(device_.address()), {}}, read_rest(), read_position()},
-                             now);
-    default:
-      return;
-  }
-}
-
-/// STP ends the interpolated motion on a ramp; what is left in the queue goes once the drive stands.
-void SilverlodeAxis::start_braking(HostTime now) {
-  const std::uint8_t address = device_.address();
-  sequence_.start({{silverlode::stp_request(address, stop_deceleration()), {}},
-                   await_rest(kLooksAtStop),
-                   {silverlode::imq_request(address), {}},
-                   read_rest(),
-                   read_position()},
-                  now);
-}
-
-void SilverlodeAxis::poll_braking(HostTime now) {
-  if (!sequence_done(now)) return;
-  clock_.stop();
-  enter(Phase::Ready, now);
-}
-
-/// The host has found a fault while the drive may be moving: it is told to stop on its ramp.
-void SilverlodeAxis::fail_in_motion(const std::string& reason, HostTime now) {
-  fail(reason, now);
-  clock_.stop();
-  device_.request(silverlode::stp_request(device_.address(), stop_deceleration()));
 }
 
 }  // namespace interpolated_motion::axis

@@ -10,13 +10,10 @@
 namespace interpolated_motion::axis {
 
 namespace registers = silverlode::registers;
-using silverlode::NakCode;
 using silverlode::Outcome;
 
 namespace {
 
-/// More than any revision's queue holds.
-constexpr std::size_t kDeepestQueue = 16;
 constexpr std::uint16_t kAllPollingBits = 0xFFFF;
 /// Kill-motor conditions in the bits of the internal status word: temperature no longer OK (bit 7 is 0),
 /// moving error (bit 8 is 1).
@@ -102,20 +99,6 @@ SilverlodeAxis::Steps SilverlodeAxis::clear_status() {
            }}};
 }
 
-SilverlodeAxis::Steps SilverlodeAxis::write_and_verify(std::uint16_t number, std::int32_t value,
-                                                       const char* purpose) {
-  const std::uint8_t address = device_.address();
-  return {{silverlode::wri_request(address, number, value), {}},
-          {silverlode::rrg_request(address, number),
-           [this, number, value, purpose](const Outcome& outcome) -> std::optional<std::string> {
-             const auto read = outcome.register_value();
-             if (!read) return device_.text(outcome);
-             if (*read == value) return std::nullopt;
-             return fmt::format("register {} ({}) was set to {} but the drive has {}", number, purpose, value,
-                                *read);
-           }}};
-}
-
 SilverlodeAxis::Steps SilverlodeAxis::error_limit_steps() {
   const double most = std::numeric_limits<std::int16_t>::max();
   const double counts = std::abs(counts_per_radian()) * parameters_.max_following_error;
@@ -131,33 +114,6 @@ CommandSequence::Step SilverlodeAxis::try_multi_register() {
           [this](const Outcome& outcome) -> std::optional<std::string> {
             if (outcome.unknown()) return device_.text(outcome);
             multi_register_ = outcome.register_value(1).has_value();
-            return std::nullopt;
-          }};
-}
-
-/// Fills the queue, which nothing executes without IMS, until the drive says that it is full, and empties it
-/// again: with the depth known, "full" is no surprise later, and tells whether a segment whose ACK was lost
-/// is in.
-SilverlodeAxis::Steps SilverlodeAxis::measure_depth() {
-  depth_ = 0;
-  const silverlode::Request empty = silverlode::imq_request(device_.address());
-  if (parameters_.queue_depth != 0) {
-    depth_ = static_cast<std::size_t>(parameters_.queue_depth);
-    return {{empty, {}}};
-  }
-  return {{empty, {}}, try_one_more(), {empty, {}}};
-}
-
-CommandSequence::Step SilverlodeAxis::try_one_more() {
-  return {silverlode::imw_request(device_.address(), 0, 0, 0, 0),
-          [this](const Outcome& outcome) -> std::optional<std::string> {
-            if (outcome.refused_with(NakCode::BufferFull) && depth_ > 0) return std::nullopt;
-            if (!outcome.accepted()) return device_.text(outcome);
-            if (++depth_ > kDeepestQueue)
-              return fmt::format(
-                  "its queue takes more than {} segments (IMW); set queue_depth if that is right",
-                  kDeepestQueue);
-            sequence_.insert({try_one_more()});
             return std::nullopt;
           }};
 }
@@ -181,11 +137,10 @@ SilverlodeAxis::Steps SilverlodeAxis::bring_up_steps() {
   append(clear_status());
   append({check_no_fault()});
   append(error_limit_steps());
-  append(write_and_verify(registers::kImsControl, 0, "interpolated motion is fed through the queue"));
-  append(write_and_verify(registers::kImsDeceleration, underrun_deceleration(),
+  append(write_and_verify(device_, registers::kImsDeceleration, underrun_deceleration(),
                           "deceleration when the queue runs dry"));
   append({try_multi_register()});
-  append(measure_depth());
+  append(delivery_->bring_up_steps());
   append({read_position()});
   return steps;
 }

@@ -43,6 +43,10 @@ void SilverDust::set_clock_error(double ppm) {
   next_event_ = implementation_->next_event();
 }
 
+void SilverDust::refuse_next(int command, int code, int count) {
+  implementation_->refuse_next({command, static_cast<NakCode>(code), count});
+}
+
 void SilverDust::process(HostTime now) {
   implementation_->catch_up(now);
   next_event_ = implementation_->next_event();

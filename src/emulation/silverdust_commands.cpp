@@ -39,6 +39,10 @@ SilverDust::Implementation::Answer SilverDust::Implementation::cannot_start() {
 
 SilverDust::Implementation::Answer SilverDust::Implementation::execute(const Packet& packet) {
   if (packet.too_long) polling_.raise(polling_bit::kTooLong);
+  if (refusals_.left > 0 && packet.command == refusals_.command) {
+    --refusals_.left;
+    return nak(refusals_.code);
+  }
   const CommandInfo* info = find_command(packet.command);
   if (!packet.well_formed) return nak(NakCode::BadFormat);
   if (info == nullptr) return nak(NakCode::BadCommand);

@@ -22,6 +22,13 @@ class SilverDust::Implementation : public ProgramTarget {
   Implementation(transport::VirtualSerialLine& line, transport::SerialListener& listener,
                  const SilverDustParameters& parameters, HostTime now);
 
+  // Commands to be refused without being executed.
+  struct Refusals {
+    std::int64_t command = -1;
+    NakCode code = NakCode::BadCommand;
+    int left = 0;
+  };
+
   const SilverDustParameters& parameters() const { return parameters_; }
   SilverDustCounters counters() const;
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
@@ -33,6 +40,7 @@ class SilverDust::Implementation : public ProgramTarget {
   void raise_fault(SilverDustFault fault, HostTime now);
   void silence(bool silent, HostTime now);
   void set_clock_error(double ppm);
+  void refuse_next(const Refusals& refusals) { refusals_ = refusals; }
 
   HostTime next_event() const;
   void catch_up(HostTime now);
@@ -159,6 +167,7 @@ class SilverDust::Implementation : public ProgramTarget {
   int holding_countdown_ = 0;
   std::int64_t largest_error_ = 0;
 
+  Refusals refusals_;
   SampleObserver observer_;
   SilverDustCounters counters_;
 };

@@ -1,11 +1,12 @@
 #include "interpolated_motion_driver/hardware/assembly.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/axis/epos_axis.h"
+#include "interpolated_motion_driver/axis/queue_delivery.h"
+#include "interpolated_motion_driver/axis/register_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode_axis.h"
 #include "interpolated_motion_driver/hardware/fault_injection.h"
 
@@ -33,7 +34,7 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
 }
 
 axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& configuration,
-                                                     const DriveConfiguration& drive, double record_bus_time,
+                                                     const DriveConfiguration& drive, double line_share,
                                                      double start_lead) {
   axis::SilverlodeAxisParameters parameters;
   parameters.joint = drive.joint;
@@ -43,24 +44,33 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
-  parameters.record_bus_time = record_bus_time;
+  parameters.line_share = line_share;
   parameters.start_lead = start_lead;
   parameters.scale = drive.silverlode.scale;
   parameters.command_scale = drive.silverlode.command_scale;
   parameters.ims_arguments = drive.silverlode.ims_arguments;
+  parameters.queue = drive.silverlode.queue;
   parameters.queue_depth = drive.silverlode.queue_depth;
+  parameters.segment_registers = drive.silverlode.segment_registers;
   parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }
 
+double segment_time(const DriveConfiguration& drive, const silverlode::LineMaster& line) {
+  return drive.silverlode.queue == axis::SegmentQueue::Registers ? axis::RegisterDelivery::segment_time(line)
+                                                                 : axis::QueueDelivery::segment_time(line);
+}
+
 /// From the start command to the begin of the path each drive of a line needs the time of IMS and of a few
 /// segments.
-double start_lead(const BusConfiguration& bus, const Configuration& configuration, double record_bus_time) {
-  constexpr double kRecordsOfStart = 4.0;
-  const auto drives =
-      std::count_if(configuration.drives.begin(), configuration.drives.end(),
-                    [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; });
-  return bus.serial.start_lead + kRecordsOfStart * static_cast<double>(drives) * record_bus_time;
+double start_lead(const BusConfiguration& bus, const Configuration& configuration,
+                  const silverlode::LineMaster& line) {
+  constexpr double kSegmentsOfStart = 4.0;
+  double lead = bus.serial.start_lead;
+  for (const DriveConfiguration& drive : configuration.drives) {
+    if (drive.bus == bus.name) lead += kSegmentsOfStart * segment_time(drive, line) / bus.max_load;
+  }
+  return lead;
 }
 
 }  // namespace
@@ -132,10 +142,10 @@ void Assembly::add_silverlode(const Configuration& configuration, const DriveCon
   silverlode::DeviceLink& device =
       link.master().add_device(static_cast<std::uint8_t>(drive.silverlode.address));
   const std::size_t index = axes_.size();
-  const double record_bus_time = link.record_bus_time();
-  const double lead = start_lead(bus_configurations_.at(drive.bus), configuration, record_bus_time);
+  const BusConfiguration& bus = bus_configurations_.at(drive.bus);
+  const double lead = start_lead(bus, configuration, link.master());
   axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
-      silverlode_parameters(configuration, drive, record_bus_time, lead), link.master(), device));
+      silverlode_parameters(configuration, drive, bus.max_load, lead), link.master(), device));
   audits_.emplace_back(drive.transmission, *axes_.back());
   if (!drive.emulation.missing) emulate_silverlode(drive, index);
 }

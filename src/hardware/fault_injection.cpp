@@ -100,10 +100,13 @@ bool inject_drive_fault(emulation::SilverDust& drive, const std::string& text, H
     drive.silence(command.numbers[0] != 0.0, now);
   } else if (command.is("clock", 1)) {
     drive.set_clock_error(command.numbers[0]);
+  } else if (command.is("nak", 3)) {
+    drive.refuse_next(static_cast<int>(command.numbers[0]), static_cast<int>(command.numbers[1]),
+                      static_cast<int>(command.numbers[2]));
   } else {
     return unknown(text,
                    "fault over_temperature|over_voltage|low_voltage|moving_error|holding_error, power_cycle "
-                   "SECONDS, stall 0|1, silence 0|1, clock PPM",
+                   "SECONDS, stall 0|1, silence 0|1, clock PPM, nak COMMAND CODE COUNT",
                    reason);
   }
   return true;

@@ -1,7 +1,6 @@
 #include "interpolated_motion_driver/hardware/serial_link.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace interpolated_motion::hardware {
@@ -14,9 +13,7 @@ constexpr std::size_t kLongestLine = 200;
 }  // namespace
 
 SerialLink::SerialLink(const BusConfiguration& configuration, transport::SerialLine& line)
-    : line_(line),
-      master_(configuration.name, configuration.serial.line),
-      max_load_(configuration.max_load) {}
+    : line_(line), master_(configuration.name, configuration.serial.line) {}
 
 void SerialLink::receive(const WireObserver& observer) {
   show_sent(observer);
@@ -62,13 +59,6 @@ std::vector<std::string> SerialLink::unexpected_traffic() const {
     if (!text.empty()) texts.push_back(std::move(text));
   }
   return texts;
-}
-
-double SerialLink::record_bus_time() const {
-  // Time of up to 5 digits, position and velocity of 10, acceleration of 7: more than that is not physical.
-  const auto longest = silverlode::imw_request(254, 65536, std::numeric_limits<std::int32_t>::min(), 1 << 23,
-                                               std::numeric_limits<std::int32_t>::max());
-  return seconds(master_.exchange_time(longest)) / max_load_;
 }
 
 }  // namespace interpolated_motion::hardware

@@ -1,11 +1,16 @@
 #include "interpolated_motion_driver/hardware/silverlode_configuration.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "interpolated_motion_driver/protocol/silverlode/request.h"
 
 namespace interpolated_motion::hardware {
 
@@ -87,6 +92,30 @@ void parse_emulated(ParameterReader reader, DriveConfiguration& drive) {
   reader.refuse_unknown();
 }
 
+void parse_ims_arguments(ParameterReader& reader, SilverlodeConfiguration& silverlode) {
+  silverlode.ims_arguments = reader.text("ims_arguments", silverlode.ims_arguments);
+  try {
+    silverlode::ims_request(static_cast<std::uint8_t>(silverlode.address), silverlode.ims_arguments);
+  } catch (const std::invalid_argument& error) {
+    reader.fail("ims_arguments", fmt::format("is \"{}\": {}", silverlode.ims_arguments, error.what()));
+  }
+}
+
+void parse_queue(ParameterReader& reader, DriveConfiguration& drive) {
+  constexpr std::int64_t kMostBlocks = 8;
+  SilverlodeConfiguration& silverlode = drive.silverlode;
+  silverlode.queue =
+      reader.choice("queue", silverlode.queue,
+                    {{"fifo", axis::SegmentQueue::Fifo}, {"register", axis::SegmentQueue::Registers}});
+  silverlode.queue_depth = static_cast<int>(reader.integer("queue_depth", 0, 0, 16));
+  axis::SegmentRegisters& registers = silverlode.segment_registers;
+  registers.first = static_cast<std::uint16_t>(
+      reader.integer("first_register", registers.first, 0, std::numeric_limits<std::uint16_t>::max()));
+  registers.blocks = static_cast<std::size_t>(
+      reader.integer("register_blocks", static_cast<std::int64_t>(registers.blocks), 1, kMostBlocks));
+  if (auto wrong = axis::refuse_segment_registers(registers)) reader.fail("first_register", *wrong);
+}
+
 }  // namespace
 
 void parse_serial_line(ParameterReader& reader, BusConfiguration& bus) {
@@ -112,8 +141,8 @@ void parse_serial_line(ParameterReader& reader, BusConfiguration& bus) {
 
 void parse_silverlode_drive(ParameterReader& reader, DriveConfiguration& drive) {
   drive.silverlode.address = static_cast<int>(reader.required_integer("address", 1, 254));
-  drive.silverlode.ims_arguments = reader.text("ims_arguments", drive.silverlode.ims_arguments);
-  drive.silverlode.queue_depth = static_cast<int>(reader.integer("queue_depth", 0, 0, 16));
+  parse_ims_arguments(reader, drive.silverlode);
+  parse_queue(reader, drive);
   parse_scales(reader, drive);
   parse_emulated(reader.map("emulation"), drive);
 }

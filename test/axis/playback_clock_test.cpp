@@ -41,6 +41,26 @@ TEST(PlaybackClock, FindsTheRateOfADriveFromItsFifo) {
   }
 }
 
+// Looks that are told to 0.3 ms, a start known to 0.15 ms: the bounds lie alike on both sides of the drive's
+// true rate, so their middle is far nearer to it than their ends.
+TEST(PlaybackClock, MiddleOfCloseBoundsIsTheTruth) {
+  for (const double ppm : {-200.0, -100.0, 0.0, 35.0, 100.0}) {
+    PlaybackClock clock(5e-4, 0.15e-3, PlaybackClock::Estimate::Middle);
+    clock.start(at(0.0));
+    const double rate = 1.0 + ppm * 1e-6;
+    for (int look = 1; look <= 6000; ++look) {
+      const double host = 0.1 * look;
+      clock.observe_less_than(at(host - 0.00015), host * rate);
+      clock.observe_at_least(at(host + 0.00015), host * rate);
+      ASSERT_NEAR(clock.elapsed(at(host)), host * rate, 0.0003) << ppm << " ppm at " << host << " s";
+      if (look > 100) {
+        ASSERT_NEAR(clock.elapsed(at(host)), host * rate, 0.00002) << ppm << " ppm at " << host << " s";
+      }
+    }
+    EXPECT_NEAR(clock.error_ppm(), ppm, 0.1);
+  }
+}
+
 TEST(PlaybackClock, AWrongReportCannotThrowItFurtherThanACrystalCanBe) {
   PlaybackClock clock(5e-4, 1e-3);
   clock.start(at(0.0));

@@ -1,9 +1,17 @@
+#include <cstdio>
+
 #include <gtest/gtest.h>
 
+#include "hardware/line_traffic.h"
 #include "hardware/scenario.h"
 
 namespace interpolated_motion::test {
 namespace {
+
+using motion::GoalOutcome;
+using motion::GroupState;
+
+constexpr int kImw = 25;
 
 void expect_followed(Scenario& scenario, double bound, double final_bound) {
   for (const auto& joint : scenario.driver().report().joints) {
@@ -16,19 +24,71 @@ void expect_followed(Scenario& scenario, double bound, double final_bound) {
 
 class SilverlodeGoals : public testing::TestWithParam<const char*> {};
 
-TEST_P(SilverlodeGoals, AreFollowedAtEveryServoTick) {
+// "Full" is known from the clock; NAK 6 is not how the driver finds out.
+TEST_P(SilverlodeGoals, AreFollowedAtEveryServoTickWithHardlyANak) {
   Scenario scenario(six_axis_silverlode());
-  ASSERT_TRUE(scenario.run_until_state(motion::GroupState::Idle)) << scenario.snapshot().fault;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  LineTraffic traffic(scenario);
   const auto accepted = scenario.submit(load_goal(goal_file(GetParam())));
   ASSERT_TRUE(accepted) << accepted.error().text;
   const auto result = scenario.result_of(accepted.value().id);
-  EXPECT_EQ(result.outcome, motion::GoalOutcome::Succeeded) << result.text;
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
   expect_followed(scenario, 2.0, 1.0);
+  EXPECT_GT(traffic.commands(kImw), 6U * 20U) << "the counter does not see the segments";
+  EXPECT_LE(static_cast<double>(traffic.naks()), 0.005 * static_cast<double>(traffic.commands()));
+}
+
+/// Six drives on one line at 57600 baud instead of two.
+YAML::Node one_line() {
+  YAML::Node arm = six_axis_silverlode();
+  arm["buses"].remove("line1");
+  for (int i = 4; i <= 6; ++i) arm["drives"]["joint" + std::to_string(i)]["bus"] = "line0";
+  return arm;
+}
+
+// Which goals fit one line is said before anything moves: what is accepted is followed as with two lines,
+// what is refused names the line and its figure.
+TEST_P(SilverlodeGoals, FitOneLineOrAreRefusedBeforeAnythingMoves) {
+  Scenario scenario(one_line());
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  LineTraffic traffic(scenario);
+  const auto accepted = scenario.submit(load_goal(goal_file(GetParam())));
+  if (!accepted) {
+    std::printf("%s: %s\n", GetParam(), accepted.error().text.c_str());
+    EXPECT_NE(accepted.error().text.find("Bus line0 cannot carry the goal"), std::string::npos)
+        << accepted.error().text;
+    EXPECT_NE(accepted.error().text.find("records in a second"), std::string::npos) << accepted.error().text;
+    const auto before = scenario.positions();
+    scenario.run(1.0);
+    EXPECT_EQ(scenario.positions(), before);
+    EXPECT_EQ(traffic.commands(kImw), 0U);
+    return;
+  }
+  const auto result = scenario.result_of(accepted.value().id);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  expect_followed(scenario, 2.0, 1.0);
+  EXPECT_LE(static_cast<double>(traffic.naks()), 0.005 * static_cast<double>(traffic.commands()));
+  std::printf("%s: fits one line, %llu segments, peak load %.0f %%\n", GetParam(),
+              static_cast<unsigned long long>(traffic.commands(kImw)),
+              100.0 * scenario.driver().report().peak_bus_load.front().second);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planned, SilverlodeGoals,
                          testing::Values("six_axis_toppra_100ms_pv.yaml", "six_axis_toppra_100ms_pva.yaml",
                                          "six_axis_toppra_20ms_pva.yaml"));
+
+// The budget must not be so wide that it never refuses: at 9600 baud the same goals need more than the line.
+TEST(SilverlodeBudget, SlowLineRefusesWithTheFigure) {
+  Scenario scenario(six_axis_silverlode("{buses: {line0: {baud: 9600}, line1: {baud: 9600}}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle, 30.0)) << scenario.snapshot().fault;
+  LineTraffic traffic(scenario);
+  const auto answer = scenario.submit(load_goal(goal_file("six_axis_toppra_100ms_pva.yaml")));
+  ASSERT_FALSE(answer);
+  EXPECT_NE(answer.error().text.find("cannot carry the goal: at "), std::string::npos) << answer.error().text;
+  scenario.run(1.0);
+  EXPECT_EQ(traffic.commands(kImw), 0U);
+  for (const double position : scenario.positions()) EXPECT_EQ(position, 0.0);
+}
 
 }  // namespace
 }  // namespace interpolated_motion::test

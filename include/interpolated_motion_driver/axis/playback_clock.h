@@ -8,8 +8,8 @@ namespace interpolated_motion::axis {
 ///
 /// The start is known (the start signal on the bus, to within one sample of the drive), the drive's crystal
 /// is not: its rate lies within +-`max_error` of the host's. Each look at the drive's FIFO says "by then it
-/// had played at least this much" or "not yet that much"; both bound the rate, and the estimate is the rate
-/// nearest to 1 within the bounds. So the error of the estimate never exceeds the interval between two looks
+/// had played at least this much" or "not yet that much"; both bound the rate, and the estimate is a rate
+/// within the bounds, see Estimate. So the error of the estimate never exceeds the interval between two looks
 /// at the FIFO, however long the motion.
 ///
 /// A drive that sets its clock by the host's plays at the host's rate: then the estimate is host time, and
@@ -17,9 +17,16 @@ namespace interpolated_motion::axis {
 /// bounds the rate of the crystal, for the case that the drive stops following.
 class PlaybackClock {
  public:
+  /// Which of the rates within the bounds is taken.
+  enum class Estimate {
+    NearestToHost,  ///< the looks are rare: as long as nothing speaks against it, the crystals agree
+    Middle,         ///< each look bounds the clock closely, from both sides alike
+  };
+
   /// `max_error`: largest relative error of a drive's crystal, e.g. 5e-4. `sample`: uncertainty of the start,
   /// s.
-  explicit PlaybackClock(double max_error = 5e-4, double sample = 1e-3);
+  explicit PlaybackClock(double max_error = 5e-4, double sample = 1e-3,
+                         Estimate estimate = Estimate::NearestToHost);
 
   /// Largest deviation of a drive that follows the host, s: start and report are each known to a sample, and
   /// the rest is for a drive that latches its report late and for time stamps lost on the way.
@@ -55,6 +62,7 @@ class PlaybackClock {
 
   double max_error_;
   double sample_;
+  Estimate estimate_;
   bool running_ = false;
   bool follows_host_ = false;
   HostTime start_{};

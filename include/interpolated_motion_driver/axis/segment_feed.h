@@ -48,6 +48,8 @@ class SegmentFeed {
   /// the one executed at `elapsed` begins.
   double queue_end() const { return tick_ * static_cast<double>(end_tick_); }
   double next_begin(double elapsed) const;
+  /// When the drive begins segment `number`, counted from 0, one of those sent last.
+  double begin_of(std::size_t number) const;
   double duration() const { return queue_end(); }
 
   /// An instant of the drive's motion.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/command_sequence.h"
 #include "interpolated_motion_driver/axis/playback_clock.h"
+#include "interpolated_motion_driver/axis/segment_delivery.h"
 #include "interpolated_motion_driver/axis/segment_feed.h"
 #include "interpolated_motion_driver/axis/silverlode_parameters.h"
 #include "interpolated_motion_driver/axis/silverlode_status.h"
@@ -14,20 +16,15 @@
 
 namespace interpolated_motion::axis {
 
-/// A QuickSilver SilverLode drive in interpolated motion (IMS), fed through its queue (IMQ, IMW) over a
-/// serial line.
+/// A QuickSilver SilverLode drive in interpolated motion (IMS), fed over a serial line.
 ///
-/// A goal's way: plan() encodes it whole, to see that it can be done; load() empties the queue, looks where
-/// the drive stands, and queues a first segment of waiting; arm() sends IMS. The time of that command tells
-/// when the drive began, so a second segment of waiting can end exactly at the instant the path is to begin
-/// at, however long the drives of a line had to wait for their turn. Then segments of the path follow, each
-/// encoded when it is due, at a rate that takes the drive's crystal into account; the segment with time 0
-/// ends the motion. If the host stays silent the queue runs dry, and the drive brakes by itself with
-/// register 19.
-///
-/// A segment whose ACK was lost must not get into the queue twice. It is sent again only when it has filled
-/// the last place of the queue and no place becomes free meanwhile: then NAK "full" says that it was in, and
-/// ACK that it was not. Otherwise nobody can know, and the axis stops.
+/// A goal's way: plan() encodes it whole, to see that it can be done; load() empties the drive's queue, looks
+/// where the drive stands, and puts a first segment of waiting into it; arm() sends IMS. The time of that
+/// command tells when the drive began, so a second segment of waiting can end exactly at the instant the path
+/// is to begin at, however long the drives of a line had to wait for their turn. Then segments of the path
+/// follow, each encoded when it is due, at a rate that takes the drive's crystal into account; the segment
+/// with time 0 ends the motion. If the host stays silent the queue runs dry, and the drive brakes by itself
+/// with register 19. How a segment gets into the drive is SegmentDelivery's matter.
 class SilverlodeAxis : public Axis {
  public:
   /// `line` and `device` must outlive the axis. Throws std::invalid_argument, naming joint and parameter.
@@ -52,7 +49,7 @@ class SilverlodeAxis : public Axis {
   GoalTime start_lead() const override { return GoalTime{parameters_.start_lead}; }
   std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override { return planned_slots_; }
-  double record_bus_time() const override { return parameters_.record_bus_time; }
+  double record_bus_time() const override { return delivery_->record_time() / parameters_.line_share; }
   void load(HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override { return begin_; }
@@ -84,9 +81,6 @@ class SilverlodeAxis : public Axis {
     Disabling,
     Fault,
   };
-  /// What became of the segment sent last.
-  enum class Delivery { None, Sent, Unknown, SentAgain };
-
   using Steps = std::vector<CommandSequence::Step>;
 
   /// Looks at a drive that is to come to rest; about 12 s on a line at 57600 baud.
@@ -107,13 +101,11 @@ class SilverlodeAxis : public Axis {
   Steps bring_up_steps();
   Steps enable_steps();
   Steps clear_status();
+  Steps emptying_steps();
   Steps error_limit_steps();
-  Steps measure_depth();
-  Steps write_and_verify(std::uint16_t number, std::int32_t value, const char* purpose);
   CommandSequence::Step await_rest(int looks_left);
   CommandSequence::Step check_no_fault();
   CommandSequence::Step try_multi_register();
-  CommandSequence::Step try_one_more();
   CommandSequence::Step read_rest();
   CommandSequence::Step read_position();
   CommandSequence::Check store(std::int32_t& value) const;
@@ -122,15 +114,12 @@ class SilverlodeAxis : public Axis {
   double counts_per_radian() const;
 
   void take_outcomes(HostTime now);
-  void take_delivery(const silverlode::Outcome& outcome, HostTime now);
   void take_start(const silverlode::Outcome& outcome, HostTime now);
-  void resolve_unknown(const silverlode::Outcome& outcome, HostTime now);
-  bool full_queue_would_tell(HostTime now) const;
 
   std::vector<RecordSlot> slots_of(const encoding::ImsStream& stream, GoalTime start) const;
   void make_second_wait(HostTime now);
   void feed(HostTime now);
-  void offer(HostTime now);
+  void offer(bool more, HostTime now);
   double rate_for_next() const;
   void take_execution(const SilverlodeStatus::Execution& look, HostTime now);
   void learn_clock(HostTime asked, double elapsed);
@@ -169,7 +158,6 @@ class SilverlodeAxis : public Axis {
   bool configured_ = false;
   std::string fault_text_;
   std::string revision_;
-  std::size_t depth_ = 0;
   bool multi_register_ = true;
 
   std::int32_t rest_counts_ = 0;
@@ -179,24 +167,19 @@ class SilverlodeAxis : public Axis {
   std::vector<RecordSlot> planned_slots_;
   SegmentFeed feed_;
   PlaybackClock clock_;
+  std::unique_ptr<SegmentDelivery> delivery_;
   double clock_error_ppm_ = 0.0;  ///< as the last motion has shown it
   HostTime begin_ = kNever;
   bool second_wait_made_ = false;
   bool finished_ = false;
 
-  silverlode::RequestId segment_id_ = silverlode::kNoRequest;
   silverlode::RequestId start_id_ = silverlode::kNoRequest;
-  Delivery delivery_ = Delivery::None;
-  HostTime retry_at_{};
-  int misunderstood_ = 0;  ///< times in a row that the drive could not read a segment
-  int misfits_ = 0;        ///< looks in a row at an execution that does not fit
+  int misfits_ = 0;  ///< looks in a row at an execution that does not fit
 
   std::uint32_t minimum_fill_ = 0;
   std::uint32_t underruns_ = 0;
   std::uint32_t underruns_at_load_ = 0;
-  std::uint32_t refused_writes_ = 0;
   std::uint32_t refused_at_load_ = 0;
-  std::uint64_t records_sent_ = 0;
 };
 
 }  // namespace interpolated_motion::axis

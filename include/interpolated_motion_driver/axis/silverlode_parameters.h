@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "interpolated_motion_driver/axis/segment_registers.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/interpolation/ims_profile.h"
 #include "interpolated_motion_driver/protocol/silverlode/registers.h"
@@ -20,14 +21,16 @@ struct SilverlodeAxisParameters {
   double limit_margin = 1.2;  ///< segments may exceed the joint's acceleration by this factor between knots
   double max_following_error = 0.1;  ///< rad, ERL
   double commit_horizon = 2.0;       ///< s of motion kept in the drive's queue
-  double record_bus_time = 0.0;      ///< s of line per segment, as share of what segments may fill
+  double line_share = 0.85;          ///< of the line's time that segments may fill, above 0 to 1
   double start_lead = 0.3;           ///< s from arm() to the begin of the path
 
   interpolation::ImsScale scale;  ///< of the segments; its counts per revolution are those of `transmission`
   silverlode::DriveScale command_scale;  ///< of all other commands
   std::string ims_arguments = "0 0";     ///< of IMS: in no document at hand
-  int queue_depth = 0;                   ///< 4, or 8 from SilverDust revision 06 on; 0: measured at bring-up
-  double max_clock_error = 5e-4;         ///< of the drive's crystal, relative
+  SegmentQueue queue = SegmentQueue::Fifo;
+  int queue_depth = 0;  ///< of the FIFO: 4, or 8 from SilverDust revision 06 on; 0: measured at bring-up
+  SegmentRegisters segment_registers;  ///< of the register-based queue
+  double max_clock_error = 5e-4;       ///< of the drive's crystal, relative
 
   /// From the last bit of a command to its execution by the drive, at most. Nothing is documented; the reply
   /// follows about 2 ms after the command, the command is executed before.

@@ -87,6 +87,9 @@ class SilverDust : public transport::SerialListener {
   /// Changes the error of the drive's crystal from its next tick on, ppm.
   void set_clock_error(double ppm);
 
+  /// The next `count` commands with number `command` are not executed but answered with a NAK of `code`.
+  void refuse_next(int command, int code, int count);
+
   /// Time of the drive's next own action, kNever when it only answers.
   HostTime next_event() const { return next_event_; }
 

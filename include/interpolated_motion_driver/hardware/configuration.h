@@ -7,6 +7,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "interpolated_motion_driver/axis/segment_registers.h"
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust_parameters.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
@@ -67,7 +68,9 @@ struct SilverlodeConfiguration {
   interpolation::ImsScale scale;
   silverlode::DriveScale command_scale;
   std::string ims_arguments = "0 0";  ///< of IMS
-  int queue_depth = 0;                ///< segments; 0: measured at bring-up
+  axis::SegmentQueue queue = axis::SegmentQueue::Fifo;
+  int queue_depth = 0;  ///< segments of the FIFO; 0: measured at bring-up
+  axis::SegmentRegisters segment_registers;
   emulation::SilverDustParameters emulated;
 };
 

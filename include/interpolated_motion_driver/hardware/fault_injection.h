@@ -23,7 +23,8 @@ bool inject_bus_fault(transport::VirtualCanBus& bus, const std::string& command,
                       std::string* reason);
 
 /// Commands: `fault over_temperature|over_voltage|low_voltage|moving_error|holding_error`, `power_cycle
-/// SECONDS`, `stall 0|1`, `silence 0|1`, `clock PPM`. False with a reason for anything else.
+/// SECONDS`, `stall 0|1`, `silence 0|1`, `clock PPM`, `nak COMMAND CODE COUNT` (the next COUNT commands with
+/// that number are refused). False with a reason for anything else.
 bool inject_drive_fault(emulation::SilverDust& drive, const std::string& command, HostTime now,
                         std::string* reason);
 

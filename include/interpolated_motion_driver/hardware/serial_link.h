@@ -31,15 +31,11 @@ class SerialLink : public BusLink {
   void reset_peak_load() override { peak_load_ = 0.0; }
   std::vector<std::string> unexpected_traffic() const override;
 
-  /// Share of the line that one segment takes, s: the longest IMW with its ACK.
-  double record_bus_time() const;
-
  private:
   void show_sent(const WireObserver& observer);
 
   transport::SerialLine& line_;
   silverlode::LineMaster master_;
-  double max_load_;
   std::string received_;  ///< the line being received
   struct Sent {
     std::string text;

@@ -16,6 +16,7 @@ inline constexpr std::uint16_t kProfilePosition = 20;  ///< counts; 20..23 are o
 inline constexpr std::uint16_t kProfileAcceleration = 21;
 inline constexpr std::uint16_t kProfileVelocity = 22;
 inline constexpr std::uint16_t kProfileDeceleration = 23;
+inline constexpr std::uint16_t kProfileOffset = 24;  ///< of PMC
 }  // namespace registers
 
 inline constexpr std::uint16_t high_word(std::int32_t value) {
