@@ -95,7 +95,9 @@ double SegmentFeed::begin_of(std::size_t number) const {
 
 std::optional<SegmentFeed::Instant> SegmentFeed::instant_of(std::int64_t ticks_left, double expected) const {
   std::optional<Instant> nearest;
-  for (const Stretch& stretch : stretches_) {
+  const std::size_t recent = std::min(stretches_.size(), kRecent);
+  for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(recent); it != stretches_.end(); ++it) {
+    const Stretch& stretch = *it;
     if (ticks_left < 1 || ticks_left > stretch.ticks) continue;
     const double elapsed = tick_ * static_cast<double>(stretch.begin + stretch.ticks - ticks_left);
     if (!nearest || std::abs(elapsed - expected) < std::abs(nearest->elapsed - expected))

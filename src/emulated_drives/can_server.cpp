@@ -1,7 +1,6 @@
 #include "can_server.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,35 +13,45 @@ namespace {
 
 constexpr int kHostPort = 0;
 constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
+constexpr double kSample = 1e-3;  // s
 
-transport::SocketcanParameters interface_parameters(const std::string& interface, std::uint32_t bitrate) {
+transport::SocketcanParameters interface_parameters(const CanDrives& list) {
   transport::SocketcanParameters parameters;
-  parameters.interface = interface;
-  parameters.bitrate = bitrate;
+  parameters.interface = list.interface;
+  parameters.bitrate = list.bitrate;
   return parameters;
-}
-
-std::chrono::steady_clock::time_point to_steady(HostTime time) {
-  return std::chrono::steady_clock::time_point(
-      std::chrono::duration_cast<std::chrono::steady_clock::duration>(time.time_since_epoch()));
 }
 
 }  // namespace
 
-CanServer::CanServer(boost::asio::io_context& io, const std::string& interface, const DriveList& list,
+CanServer::CanServer(boost::asio::io_context& io, const CanDrives& list, const std::string& samples_folder,
                      Announcement announce)
-    : world_(transport::read_host_clock()),
-      bus_(world_.add_can_bus(interface, static_cast<int>(list.bitrate))),
-      interface_(io, interface_parameters(interface, list.bitrate), world_.now()),
-      interface_name_(interface),
-      announce_(std::move(announce)),
-      timer_(io) {
-  for (const NamedDrive& drive : list.drives) {
-    emulation::EposDrive& added = world_.add_epos(bus_, drive.parameters);
-    const std::string node = std::to_string(drive.parameters.node_id);
-    drives_[drive.name] = drives_[node] = &added;
-    nodes_ += (nodes_.empty() ? "" : ", ") + node;
+    : Server(io, std::move(announce)),
+      bus_(world_.add_can_bus(list.interface, static_cast<int>(list.bitrate))),
+      interface_(io, interface_parameters(list), world_.now()),
+      interface_name_(list.interface) {
+  for (const auto& drive : list.drives) add_drive(drive, samples_folder);
+  add_target(interface_name_, [this](const std::string& command, std::string* reason) {
+    return hardware::inject_bus_fault(bus_, command, world_.now(), reason);
+  });
+}
+
+void CanServer::add_drive(const NamedDrive<emulation::EposParameters>& drive,
+                          const std::string& samples_folder) {
+  emulation::EposDrive& added = world_.add_epos(bus_, drive.parameters);
+  const std::string node = std::to_string(drive.parameters.node_id);
+  nodes_ += (nodes_.empty() ? "" : ", ") + node;
+  for (const std::string& name : {drive.name, node}) {
+    add_target(name, [this, &added](const std::string& command, std::string* reason) {
+      return hardware::inject_drive_fault(added, command, world_.now(), reason);
+    });
   }
+  if (samples_folder.empty()) return;
+  SampleFile& file = samples_.emplace_back(samples_folder, drive.name);
+  added.set_sample_observer([&file](const emulation::EposSample& sample) {
+    const double elapsed = kSample * static_cast<double>(sample.samples_since_start);
+    file.add({sample.time, elapsed, sample.demand, sample.actual}, sample.interpolating);
+  });
 }
 
 void CanServer::turn() {
@@ -51,15 +60,15 @@ void CanServer::turn() {
   take_frames();
   run_drives(now);
   send_frames(now);
-  wait_until(std::min({world_.next_event(), interface_.next_deadline(), now + kLongestWait}));
+  turn_at(std::min({world_.next_event(), interface_.next_deadline(), now + kLongestWait}));
 }
 
 void CanServer::follow_interface(HostTime now) {
   if (interface_.poll_interface(now)) {
     const bool up = interface_.state() == transport::SocketcanState::Up;
     if (up) bus_.set_instantaneous(interface_.interface()->bitrate.has_value());
-    announce_(up ? ready_text() : interface_.status_text());
-    for (const std::string& advice : interface_.advice()) announce_("advice: " + advice);
+    announce(up ? ready_text() : interface_.status_text());
+    for (const std::string& advice : interface_.advice()) announce("advice: " + advice);
   }
   wait_for_frames();
 }
@@ -102,23 +111,6 @@ void CanServer::run_drives(HostTime now) {
 void CanServer::send_frames(HostTime now) {
   if (interface_.state() != transport::SocketcanState::Up) outgoing_.clear();
   while (!outgoing_.empty() && interface_.send(outgoing_.front(), now)) outgoing_.pop_front();
-}
-
-void CanServer::wait_until(HostTime time) {
-  timer_.expires_at(to_steady(time));
-  timer_.async_wait([this](const boost::system::error_code& error) {
-    if (!error) turn();
-  });
-}
-
-bool CanServer::inject(const std::string& target, const std::string& command, std::string* reason) {
-  const HostTime now = world_.now();
-  if (target == interface_name_) return hardware::inject_bus_fault(bus_, command, now, reason);
-  const auto drive = drives_.find(target);
-  if (drive != drives_.end()) return hardware::inject_drive_fault(*drive->second, command, now, reason);
-  *reason = fmt::format("\"{}\" is neither a drive nor the interface; there are nodes {} and {}", target,
-                        nodes_, interface_name_);
-  return false;
 }
 
 }  // namespace interpolated_motion::emulated_drives

@@ -1,86 +1,163 @@
 #include "drive_list.h"
 
-#include <set>
+#include <limits>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include "interpolated_motion_driver/hardware/emulation_configuration.h"
+#include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
 
 namespace interpolated_motion::emulated_drives {
 namespace {
 
-using hardware::ParameterReader;
+using hardware::BusConfiguration;
+using hardware::BusType;
+using hardware::Configuration;
+using hardware::TransportKind;
 
-/// What the emulation needs of a drive's configuration; the rest of it is for the driver.
-hardware::DriveConfiguration read_drive(ParameterReader& reader) {
-  hardware::DriveConfiguration drive;
-  drive.node_id = static_cast<int>(reader.required_integer("node_id", 1, 127));
-  drive.transmission.counts_per_revolution = reader.required_number("counts_per_revolution", 1.0, 1e8);
-  drive.transmission.ratio = reader.number("gear_ratio", 1.0, 1e-6, 1e6);
-  drive.transmission.direction = static_cast<int>(reader.integer("direction", 1, -1, 1));
-  drive.transmission.offset = reader.number("offset", 0.0, -1e6, 1e6);
-  return drive;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The limits of a joint mean nothing to its drive: without the URDF, they are as wide as can be.
+std::map<std::string, trajectory::JointLimits> any_limits(const YAML::Node& drives) {
+  std::map<std::string, trajectory::JointLimits> limits;
+  for (const auto& drive : drives) {
+    trajectory::JointLimits& joint = limits[drive.first.Scalar()];
+    joint.min_position = -kInfinity;
+    joint.max_position = kInfinity;
+    joint.max_velocity = std::numeric_limits<double>::max();
+  }
+  return limits;
 }
 
-std::string choose_bus(const Options& options, ParameterReader& drives) {
-  std::set<std::string> buses;
-  for (const std::string& joint : drives.keys()) buses.insert(drives.map(joint).required_text("bus"));
-  if (options.bus.empty() && buses.size() == 1) return *buses.begin();
-  if (buses.count(options.bus) > 0) return options.bus;
+Configuration load_configuration(const std::string& file) {
+  const YAML::Node root = YAML::LoadFile(file);
+  try {
+    // Keys of the node are not checked here.
+    const std::vector<std::string> keys = hardware::ParameterReader(root, "").keys();
+    return hardware::parse_configuration(root, any_limits(root["drives"]), keys);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
+CanDrives can_drives(const Configuration& configuration, const BusConfiguration& bus, std::string interface) {
+  CanDrives list;
+  list.interface = std::move(interface);
+  list.bitrate = bus.bitrate;
+  for (const auto& drive : configuration.drives) {
+    if (drive.bus == bus.name && !drive.emulation.missing)
+      list.drives.push_back({drive.joint, drive.emulation.drive});
+  }
+  return list;
+}
+
+SerialDrives serial_drives(const Configuration& configuration, const BusConfiguration& bus,
+                           std::string link) {
+  SerialDrives list;
+  list.link = std::move(link);
+  list.line.baud = static_cast<int>(bus.serial.line.baud);
+  list.line.bits_per_character = bus.serial.line.bits_per_character;
+  list.line.wiring = bus.serial.wiring;
+  for (const auto& drive : configuration.drives) {
+    if (drive.bus == bus.name && !drive.emulation.missing)
+      list.drives.push_back({drive.joint, drive.silverlode.emulated});
+  }
+  return list;
+}
+
+const BusConfiguration& choose_bus(const Configuration& configuration, const Options& options, BusType type) {
   std::string names;
-  for (const std::string& bus : buses) names += (names.empty() ? "" : ", ") + bus;
-  throw std::invalid_argument(fmt::format("{}: choose a bus with --bus; drives are on: {}",
-                                          options.config_file, names.empty() ? "none" : names));
+  std::size_t found = 0;
+  const BusConfiguration* chosen = nullptr;
+  for (const BusConfiguration& bus : configuration.buses) {
+    if (bus.type != type) continue;
+    names += (names.empty() ? "" : ", ") + bus.name;
+    if (!options.bus.empty() && bus.name != options.bus) continue;
+    chosen = &bus;
+    ++found;
+  }
+  if (found == 1) return *chosen;
+  throw std::invalid_argument(
+      fmt::format("{}: choose a bus with --bus; of type {} there are: {}", options.config_file,
+                  type == BusType::Canopen ? "canopen" : "silverlode", names.empty() ? "none" : names));
 }
 
-DriveList read_configuration(const Options& options) {
-  ParameterReader root(YAML::LoadFile(options.config_file), options.config_file + ": ");
-  ParameterReader drives = root.map("drives");
-  const std::string bus = choose_bus(options, drives);
+/// All buses that lead out of the driver's process.
+DriveList drives_of_real_buses(const Configuration& configuration, const std::string& file) {
   DriveList list;
-  list.bitrate = static_cast<std::uint32_t>(
-      root.map("buses").map(bus).integer("bitrate", list.bitrate, 10'000, 1'000'000));
-  for (const std::string& joint : drives.keys()) {
-    ParameterReader reader = drives.map(joint);
-    if (reader.required_text("bus") != bus) continue;
-    const auto drive = read_drive(reader);
-    const auto emulation = hardware::parse_emulation(reader.map("emulation"), drive);
-    if (!emulation.missing) list.drives.push_back({joint, emulation.drive});
+  for (const BusConfiguration& bus : configuration.buses) {
+    if (bus.transport == TransportKind::Socketcan)
+      list.can.push_back(can_drives(configuration, bus, bus.socketcan.interface));
+    if (bus.transport == TransportKind::Serial)
+      list.serial.push_back(serial_drives(configuration, bus, bus.port.device));
+  }
+  if (!list.can.empty() || !list.serial.empty()) return list;
+  throw std::invalid_argument(
+      fmt::format("{}: no bus has the transport socketcan or serial; say where to serve by --can INTERFACE "
+                  "or --serial LINK",
+                  file));
+}
+
+DriveList drives_of_file(const Options& options) {
+  const Configuration configuration = load_configuration(options.config_file);
+  if (options.interface.empty() && options.link.empty())
+    return drives_of_real_buses(configuration, options.config_file);
+  DriveList list;
+  if (!options.interface.empty()) {
+    const auto& bus = choose_bus(configuration, options, BusType::Canopen);
+    list.can.push_back(can_drives(configuration, bus, options.interface));
+  }
+  if (!options.link.empty()) {
+    const auto& bus = choose_bus(configuration, options, BusType::Silverlode);
+    list.serial.push_back(serial_drives(configuration, bus, options.link));
   }
   return list;
 }
 
 DriveList drives_as_delivered(const Options& options) {
   DriveList list;
+  if (!options.interface.empty()) list.can.push_back({options.interface, 1'000'000, {}});
   for (const int node : options.nodes) {
     emulation::EposParameters parameters;
     parameters.node_id = static_cast<std::uint8_t>(node);
     parameters.serial_number = static_cast<std::uint32_t>(node);
-    list.drives.push_back({std::to_string(node), parameters});
+    list.can.front().drives.push_back({std::to_string(node), parameters});
+  }
+  if (!options.link.empty()) list.serial.push_back({options.link, {}, {}});
+  for (const int address : options.addresses) {
+    emulation::SilverDustParameters parameters;
+    parameters.address = address;
+    list.serial.front().drives.push_back({std::to_string(address), parameters});
   }
   return list;
 }
 
 void set_clock_errors(const std::vector<double>& errors, DriveList& list) {
+  std::vector<double*> clocks;
+  for (CanDrives& bus : list.can)
+    for (auto& drive : bus.drives) clocks.push_back(&drive.parameters.clock_error_ppm);
+  for (SerialDrives& line : list.serial)
+    for (auto& drive : line.drives) clocks.push_back(&drive.parameters.clock_error_ppm);
   if (errors.empty()) return;
-  if (errors.size() != 1 && errors.size() != list.drives.size()) {
+  if (errors.size() != 1 && errors.size() != clocks.size()) {
     throw std::invalid_argument(
         fmt::format("--clock-error-ppm has {} values for {} drives; allowed: 1, or one for each drive",
-                    errors.size(), list.drives.size()));
+                    errors.size(), clocks.size()));
   }
-  for (std::size_t i = 0; i < list.drives.size(); ++i) {
-    list.drives[i].parameters.clock_error_ppm = errors[errors.size() == 1 ? 0 : i];
-  }
+  for (std::size_t i = 0; i < clocks.size(); ++i) *clocks[i] = errors[errors.size() == 1 ? 0 : i];
 }
 
 }  // namespace
 
 DriveList make_drive_list(const Options& options) {
-  DriveList list = options.config_file.empty() ? drives_as_delivered(options) : read_configuration(options);
-  if (options.bitrate != 0) list.bitrate = options.bitrate;
+  DriveList list = options.config_file.empty() ? drives_as_delivered(options) : drives_of_file(options);
+  for (CanDrives& bus : list.can)
+    if (options.bitrate != 0) bus.bitrate = options.bitrate;
+  for (SerialDrives& line : list.serial)
+    if (options.baud != 0) line.line.baud = options.baud;
   set_clock_errors(options.clock_errors, list);
   return list;
 }

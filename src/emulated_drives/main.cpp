@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <istream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,15 @@
 
 #include "can_server.h"
 #include "options.h"
+#include "serial_server.h"
 
 namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr int kEnded = 0;
 constexpr int kBadInput = 2;
+
+using Servers = std::vector<std::unique_ptr<Server>>;
 
 void say(const std::string& text) {
   std::puts(text.c_str());
@@ -30,7 +34,7 @@ void say(const std::string& text) {
 /// Lines of the standard input: faults for the drives.
 class CommandInput {
  public:
-  CommandInput(boost::asio::io_context& io, CanServer& server) : server_(server), input_(io) {
+  CommandInput(boost::asio::io_context& io, const Servers& servers) : servers_(servers), input_(io) {
     // A file or /dev/null cannot be waited for; then there are no commands.
     boost::system::error_code error;
     input_.assign(dup(STDIN_FILENO), error);
@@ -57,24 +61,47 @@ class CommandInput {
     const std::string target = line.substr(begin, blank - begin);
     const std::string command = blank == std::string::npos ? "" : line.substr(blank + 1);
     std::string reason;
-    const bool done = server_.inject(target, command, &reason);
+    const bool done = inject(target, command, &reason);
     say(done ? "done: " + line : "refused: " + reason);
   }
 
-  CanServer& server_;
+  bool inject(const std::string& target, const std::string& command, std::string* reason) {
+    std::vector<Server*> found;
+    std::string names;
+    for (const auto& server : servers_) {
+      if (server->knows(target)) found.push_back(server.get());
+      names += (names.empty() ? "" : ", ") + server->target_names();
+    }
+    if (found.size() == 1) return found.front()->inject(target, command, reason);
+    *reason = found.empty() ? "\"" + target + "\" is neither a drive nor an interface; there are " + names
+                            : "\"" + target + "\" is on two buses: call the drive by its joint";
+    return false;
+  }
+
+  const Servers& servers_;
   boost::asio::posix::stream_descriptor input_;
   boost::asio::streambuf buffer_;
 };
 
+Servers make_servers(boost::asio::io_context& io, const Options& options) {
+  const DriveList list = make_drive_list(options);
+  Servers servers;
+  for (const CanDrives& drives : list.can)
+    servers.push_back(std::make_unique<CanServer>(io, drives, options.samples_folder, say));
+  for (const SerialDrives& drives : list.serial)
+    servers.push_back(std::make_unique<SerialServer>(io, drives, options.samples_folder, say));
+  return servers;
+}
+
 int serve(const Options& options) {
   boost::asio::io_context io;
-  CanServer server(io, options.interface, make_drive_list(options), say);
+  const Servers servers = make_servers(io, options);
   boost::asio::signal_set signals(io, SIGINT, SIGTERM);
   signals.async_wait([&io](const auto& error, int) {
     if (!error) io.stop();
   });
-  CommandInput commands(io, server);
-  server.start();
+  CommandInput commands(io, servers);
+  for (const auto& server : servers) server->start();
   io.run();
   return kEnded;
 }

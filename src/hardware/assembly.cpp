@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/hardware/assembly.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include "interpolated_motion_driver/axis/register_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode_axis.h"
 #include "interpolated_motion_driver/hardware/fault_injection.h"
+#include "interpolated_motion_driver/hardware/serial_port_device.h"
+#include "interpolated_motion_driver/hardware/socketcan_device.h"
 
 namespace interpolated_motion::hardware {
 
@@ -73,40 +76,96 @@ double start_lead(const BusConfiguration& bus, const Configuration& configuratio
   return lead;
 }
 
+transport::SocketcanParameters socketcan_parameters(const Configuration& configuration,
+                                                    const BusConfiguration& bus) {
+  transport::SocketcanParameters parameters;
+  parameters.interface = bus.socketcan.interface;
+  parameters.bitrate = bus.bitrate;
+  if (bus.socketcan.receive_all) return parameters;
+  parameters.node_ids.push_back(static_cast<std::uint8_t>(bus.host_node_id));
+  for (const DriveConfiguration& drive : configuration.drives)
+    if (drive.bus == bus.name) parameters.node_ids.push_back(static_cast<std::uint8_t>(drive.node_id));
+  return parameters;
+}
+
+transport::SerialPortParameters port_parameters(const BusConfiguration& bus) {
+  constexpr int kStartAndDataBits = 9;
+  transport::SerialPortParameters parameters;
+  parameters.device = bus.port.device;
+  parameters.baud = static_cast<int>(bus.serial.line.baud);
+  parameters.stop_bits = bus.serial.line.bits_per_character - kStartAndDataBits;
+  parameters.low_latency = bus.port.low_latency;
+  parameters.rs485 = bus.port.rs485;
+  return parameters;
+}
+
 }  // namespace
 
-Assembly::Assembly(const Configuration& configuration, HostTime start) : world_(start) {
-  for (const BusConfiguration& bus : configuration.buses) {
-    bus_configurations_[bus.name] = bus;
-    bus.type == BusType::Canopen ? add_can_bus(bus) : add_serial_line(bus);
-  }
+Assembly::Assembly(const Configuration& configuration, HostTime start, EventLoop loop)
+    : world_(start), loop_(std::move(loop)) {
+  for (const BusConfiguration& bus : configuration.buses) add_bus(configuration, bus);
   audits_.reserve(configuration.drives.size());
   for (const DriveConfiguration& drive : configuration.drives) {
     drive.type == DriveType::EposIpm ? add_epos(configuration, drive) : add_silverlode(configuration, drive);
   }
 }
 
-void Assembly::add_can_bus(const BusConfiguration& bus) {
-  transport::VirtualCanBus& wire = world_.add_can_bus(bus.name, static_cast<int>(bus.bitrate));
-  auto link = std::make_unique<CanLink>(bus, wire.host());
-  virtual_can_buses_[bus.name] = &wire;
-  can_links_[bus.name] = link.get();
+void Assembly::add_bus(const Configuration& configuration, const BusConfiguration& bus) {
+  bus_configurations_[bus.name] = bus;
+  if (bus.transport != TransportKind::Emulated && loop_.io == nullptr) {
+    throw std::invalid_argument(fmt::format(
+        "Parameter buses/{}/transport: only an emulated bus does without an event loop.", bus.name));
+  }
+  switch (bus.transport) {
+    case TransportKind::Emulated:
+      return bus.type == BusType::Canopen ? add_emulated_can_bus(bus) : add_emulated_line(bus);
+    case TransportKind::Socketcan:
+      return add_socketcan_bus(configuration, bus);
+    case TransportKind::Serial:
+      return add_serial_port(bus);
+  }
+}
+
+void Assembly::add_link(std::unique_ptr<CanLink> link) {
+  can_links_[link->name()] = link.get();
   links_.push_back(std::move(link));
+}
+
+void Assembly::add_link(std::unique_ptr<SerialLink> link) {
+  serial_links_[link->name()] = link.get();
+  links_.push_back(std::move(link));
+}
+
+void Assembly::add_socketcan_bus(const Configuration& configuration, const BusConfiguration& bus) {
+  auto device =
+      std::make_unique<SocketcanDevice>(loop_, socketcan_parameters(configuration, bus), world_.now());
+  transport::CanBus& wire = device->bus();
+  add_link(std::make_unique<CanLink>(bus, wire, std::move(device)));
+}
+
+void Assembly::add_serial_port(const BusConfiguration& bus) {
+  auto device = std::make_unique<SerialPortDevice>(loop_, port_parameters(bus), world_.now());
+  transport::SerialLine& wire = device->line();
+  add_link(std::make_unique<SerialLink>(bus, wire, std::move(device)));
+}
+
+void Assembly::add_emulated_can_bus(const BusConfiguration& bus) {
+  transport::VirtualCanBus& wire = world_.add_can_bus(bus.name, static_cast<int>(bus.bitrate));
+  virtual_can_buses_[bus.name] = &wire;
+  add_link(std::make_unique<CanLink>(bus, wire.host()));
   injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
     return inject_bus_fault(wire, command, now, reason);
   };
 }
 
-void Assembly::add_serial_line(const BusConfiguration& bus) {
+void Assembly::add_emulated_line(const BusConfiguration& bus) {
   transport::SerialLineParameters parameters;
   parameters.baud = static_cast<int>(bus.serial.line.baud);
   parameters.bits_per_character = bus.serial.line.bits_per_character;
   parameters.wiring = bus.serial.wiring;
   transport::VirtualSerialLine& wire = world_.add_serial_line(bus.name, parameters);
-  auto link = std::make_unique<SerialLink>(bus, wire.host());
   virtual_lines_[bus.name] = &wire;
-  serial_links_[bus.name] = link.get();
-  links_.push_back(std::move(link));
+  add_link(std::make_unique<SerialLink>(bus, wire.host()));
   injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
     return inject_line_fault(wire, command, now, reason);
   };
@@ -120,7 +179,7 @@ void Assembly::add_epos(const Configuration& configuration, const DriveConfigura
       epos_parameters(configuration, drive, bus_configurations_.at(drive.bus), link.record_bus_time()),
       link.master(), node));
   audits_.emplace_back(drive.transmission, *axes_.back());
-  if (!drive.emulation.missing) emulate_epos(drive, index);
+  if (virtual_can_buses_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_epos(drive, index);
 }
 
 void Assembly::emulate_epos(const DriveConfiguration& drive, std::size_t index) {
@@ -147,7 +206,7 @@ void Assembly::add_silverlode(const Configuration& configuration, const DriveCon
   axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
       silverlode_parameters(configuration, drive, bus.max_load, lead), link.master(), device));
   audits_.emplace_back(drive.transmission, *axes_.back());
-  if (!drive.emulation.missing) emulate_silverlode(drive, index);
+  if (virtual_lines_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_silverlode(drive, index);
 }
 
 void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t index) {
@@ -166,18 +225,18 @@ void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t i
   };
 }
 
-void Assembly::begin_audits(const std::vector<trajectory::Path>& paths) {
-  for (std::size_t i = 0; i < audits_.size(); ++i) audits_[i].begin(paths[i]);
+void Assembly::begin_audits(const std::vector<trajectory::Path>& paths, HostTime now) {
+  for (std::size_t i = 0; i < audits_.size(); ++i) audits_[i].begin(paths[i], now);
   for (const auto& sample : sampling_) sample(true);
 }
 
-void Assembly::end_audits() {
-  for (PathAudit& audit : audits_) audit.end();
+void Assembly::end_audits(HostTime now) {
+  for (PathAudit& audit : audits_) audit.end(now);
   for (const auto& sample : sampling_) sample(false);
 }
 
 void Assembly::take(std::size_t joint, const DemandSample& sample) {
-  audits_[joint].add(sample.drive_seconds, sample.demand);
+  audits_[joint].add(sample);
   if (sample_observer_) sample_observer_(joint, sample);
 }
 

@@ -25,8 +25,9 @@ canopen::MasterParameters master_parameters(const BusConfiguration& configuratio
 
 }  // namespace
 
-CanLink::CanLink(const BusConfiguration& configuration, transport::CanBus& bus)
-    : bus_(bus), master_(configuration.name, master_parameters(configuration)) {}
+CanLink::CanLink(const BusConfiguration& configuration, transport::CanBus& bus,
+                 std::unique_ptr<BusDevice> device)
+    : BusLink(std::move(device)), bus_(bus), master_(configuration.name, master_parameters(configuration)) {}
 
 void CanLink::receive(const WireObserver& observer) {
   while (const auto received = bus_.receive()) {
@@ -36,7 +37,7 @@ void CanLink::receive(const WireObserver& observer) {
   }
 }
 
-void CanLink::send(HostTime now) {
+void CanLink::send_outgoing(HostTime now) {
   while (const canopen::Frame* frame = master_.peek_outgoing(now)) {
     if (!bus_.send(*frame, now)) break;
     master_.pop_outgoing(now);
@@ -44,12 +45,17 @@ void CanLink::send(HostTime now) {
   peak_load_ = std::max(peak_load_, master_.bus_load(now));
 }
 
-motion::BusSnapshot CanLink::snapshot() const {
-  motion::BusSnapshot snapshot{name(), master_.bus_load(), sent_, received_, 0};
-  for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause) {
-    snapshot.unexpected += master_.unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
-  }
-  return snapshot;
+void CanLink::fill_traffic(motion::BusSnapshot& out) const {
+  out.load = master_.bus_load();
+  out.frames_sent = sent_;
+  out.frames_received = received_;
+}
+
+std::uint64_t CanLink::unexpected() const {
+  std::uint64_t frames = 0;
+  for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause)
+    frames += master_.unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
+  return frames;
 }
 
 std::vector<std::string> CanLink::unexpected_traffic() const {

@@ -47,17 +47,41 @@ void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
   bus.sdo_timeout = reader.number("sdo_timeout", bus.sdo_timeout, 0.01, 10.0);
 }
 
+/// Of a bus whose type is known: the transports it can have, and what belongs to them.
+void parse_transport(ParameterReader& reader, BusConfiguration& bus) {
+  const bool is_can = bus.type == BusType::Canopen;
+  const std::pair<std::string, TransportKind> real =
+      is_can ? std::pair("socketcan", TransportKind::Socketcan) : std::pair("serial", TransportKind::Serial);
+  bus.transport = reader.choice("transport", bus.transport, {{"emulated", TransportKind::Emulated}, real});
+  if (bus.transport == TransportKind::Socketcan) {
+    bus.socketcan.interface = reader.text("interface", bus.name);
+    bus.socketcan.receive_all = reader.boolean("receive_all", bus.socketcan.receive_all);
+  }
+  if (bus.transport == TransportKind::Serial) {
+    bus.port.device = reader.required_text("device");
+    bus.port.low_latency = reader.boolean("low_latency", bus.port.low_latency);
+    bus.port.rs485 = reader.boolean("rs485", bus.port.rs485);
+  }
+}
+
+/// A serial port has 8 data bits without parity.
+void check_stop_bits(const ParameterReader& reader, const BusConfiguration& bus) {
+  const int bits = bus.serial.line.bits_per_character;
+  if (bus.transport != TransportKind::Serial || bits <= 11) return;
+  reader.fail("bits_per_character", fmt::format("is {}; a serial port sends 10 (8N1) or 11 (8N2)", bits));
+}
+
 BusConfiguration parse_bus(const std::string& name, ParameterReader reader) {
   BusConfiguration bus;
   bus.name = name;
   bus.type =
       reader.choice("type", bus.type, {{"canopen", BusType::Canopen}, {"silverlode", BusType::Silverlode}});
-  bus.transport =
-      reader.choice("transport", TransportKind::Emulated, {{"emulated", TransportKind::Emulated}});
+  parse_transport(reader, bus);
   if (bus.type == BusType::Canopen) {
     parse_can_bus(reader, bus);
   } else {
     parse_serial_line(reader, bus);
+    check_stop_bits(reader, bus);
   }
   reader.refuse_unknown();
   return bus;
@@ -204,6 +228,21 @@ double background_load(const BusConfiguration& bus, std::size_t drives) {
   return (per_sync / bus.sync_period + time_stamps + per_heartbeat / bus.heartbeat_period) / bus.bitrate;
 }
 
+/// Two buses on one interface or port would disturb each other.
+void check_devices(const Configuration& configuration) {
+  std::map<std::string, std::string> owners;
+  for (const BusConfiguration& bus : configuration.buses) {
+    if (bus.transport == TransportKind::Emulated) continue;
+    const bool is_can = bus.transport == TransportKind::Socketcan;
+    const std::string& device = is_can ? bus.socketcan.interface : bus.port.device;
+    const auto [owner, free] = owners.insert({device, bus.name});
+    if (free) continue;
+    throw std::invalid_argument(fmt::format(
+        "Parameter buses/{}/{} is \"{}\", which bus {} has already. Every bus needs one of its own.",
+        bus.name, is_can ? "interface" : "device", device, owner->second));
+  }
+}
+
 void check_background_load(const Configuration& configuration) {
   for (const BusConfiguration& bus : configuration.buses) {
     if (bus.type != BusType::Canopen) continue;
@@ -255,6 +294,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf
   for (const std::string& key : node_keys) reader.ignore(key);
   reader.refuse_unknown();
   check_nodes(configuration);
+  check_devices(configuration);
   check_background_load(configuration);
   return configuration;
 }

@@ -46,7 +46,7 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
 
 class MotionHardware::Implementation {
  public:
-  Implementation(const Configuration& configuration, HostTime now);
+  Implementation(const Configuration& configuration, HostTime now, EventLoop loop);
 
   void update(HostTime now);
   HostTime next_deadline() const;
@@ -77,9 +77,10 @@ class MotionHardware::Implementation {
   std::vector<std::uint64_t> unexpected_;
 };
 
-MotionHardware::Implementation::Implementation(const Configuration& configuration, HostTime start)
+MotionHardware::Implementation::Implementation(const Configuration& configuration, HostTime start,
+                                               EventLoop loop)
     : now(start),
-      assembly(configuration, start),
+      assembly(configuration, start, std::move(loop)),
       values_(configuration.drives.size()),
       unexpected_(assembly.links().size()) {
   for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -97,10 +98,14 @@ MotionHardware::Implementation::Implementation(const Configuration& configuratio
 // at each of its own deadlines, at their own time, so a late call of update() changes nothing of what
 // happens.
 void MotionHardware::Implementation::update(HostTime until) {
-  do {
-    const HostTime next = std::min(until, std::max(next_deadline(), now + kShortestStep));
-    step(assembly.world().advance(next));
-  } while (now < until);
+  if (assembly.emulates()) {
+    do {
+      const HostTime next = std::min(until, std::max(next_deadline(), now + kShortestStep));
+      step(assembly.world().advance(next));
+    } while (now < until);
+  } else {
+    step(until);
+  }
   refresh_handles();
 }
 
@@ -108,6 +113,7 @@ void MotionHardware::Implementation::step(HostTime time) {
   now = time;
   for (const auto& link : assembly.links()) {
     link->receive(wire_observer);
+    link->follow_device(now, log);
     link->poll(now);
   }
   group->poll(now);
@@ -127,14 +133,14 @@ void MotionHardware::Implementation::follow_group() {
   const motion::GroupState before = std::exchange(seen_state_, state);
   if (state == motion::GroupState::Moving) begin_audit();
   if (state != motion::GroupState::Moving && state != motion::GroupState::Settling) {
-    assembly.end_audits();
+    assembly.end_audits(now);
   }
   log_state_change(before);
 }
 
 void MotionHardware::Implementation::begin_audit() {
   const motion::ActiveGoal* goal = group->last_goal();
-  assembly.begin_audits(goal->plan.paths);
+  assembly.begin_audits(goal->plan.paths, now);
   for (const auto& link : assembly.links()) link->reset_peak_load();
 }
 
@@ -155,7 +161,7 @@ void MotionHardware::Implementation::log_state_change(motion::GroupState before)
 void MotionHardware::Implementation::log_unexpected_traffic() {
   for (std::size_t i = 0; i < unexpected_.size(); ++i) {
     const BusLink& link = *assembly.links()[i];
-    const std::uint64_t count = link.snapshot().unexpected;
+    const std::uint64_t count = link.unexpected();
     if (count == std::exchange(unexpected_[i], count)) continue;
     for (std::string& text : link.unexpected_traffic()) log.add(Severity::Warning, std::move(text));
   }
@@ -174,8 +180,8 @@ void MotionHardware::Implementation::refresh_handles() {
 // ---- the interface
 // -------------------------------------------------------------------------------------------------
 
-MotionHardware::MotionHardware(const Configuration& configuration, HostTime now)
-    : implementation_(std::make_unique<Implementation>(configuration, now)) {}
+MotionHardware::MotionHardware(const Configuration& configuration, HostTime now, EventLoop loop)
+    : implementation_(std::make_unique<Implementation>(configuration, now, std::move(loop))) {}
 
 MotionHardware::~MotionHardware() = default;
 
@@ -222,8 +228,9 @@ std::optional<motion::RequestResult> MotionHardware::take_request_result() {
 
 void MotionHardware::snapshot(motion::Snapshot& out) const {
   implementation_->group->snapshot(implementation_->now, out);
-  out.buses.clear();
-  for (const auto& link : implementation_->assembly.links()) out.buses.push_back(link->snapshot());
+  const auto& links = implementation_->assembly.links();
+  out.buses.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) links[i]->snapshot(out.buses[i]);
 }
 
 motion::MotionReport MotionHardware::report() const {
@@ -244,6 +251,14 @@ bool MotionHardware::query(HostTime time, std::vector<trajectory::State>& out) c
 }
 
 std::optional<MotionHardware::LogEntry> MotionHardware::take_log() { return implementation_->log.take(); }
+
+void MotionHardware::forget_samples(std::size_t joint) {
+  implementation_->assembly.audits().at(joint).clear();
+}
+
+void MotionHardware::add_sample(std::size_t joint, const DemandSample& sample) {
+  implementation_->assembly.audits().at(joint).add(sample);
+}
 
 void MotionHardware::set_wire_observer(WireObserver observer) {
   implementation_->wire_observer = std::move(observer);

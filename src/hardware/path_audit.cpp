@@ -5,18 +5,25 @@
 
 namespace interpolated_motion::hardware {
 
-void PathAudit::begin(const trajectory::Path& path) {
+void PathAudit::begin(const trajectory::Path& path, HostTime now) {
   path_ = path;
-  comparing_ = true;
+  begin_ = now;
+  end_ = kNever;
+  clear();
+}
+
+void PathAudit::end(HostTime now) { end_ = std::min(end_, now); }
+
+void PathAudit::clear() {
   samples_ = 0;
   worst_ = 0.0;
   final_ = 0.0;
 }
 
-void PathAudit::add(double drive_seconds, double demand) {
-  if (!comparing_) return;
-  const GoalTime time = axis_->goal_time_at(drive_seconds);
-  final_ = std::abs(demand - transmission_.counts(path_.sample(time).position));
+void PathAudit::add(const DemandSample& sample) {
+  if (sample.time < begin_ || sample.time > end_) return;
+  const GoalTime time = axis_->goal_time_at(sample.drive_seconds);
+  final_ = std::abs(sample.demand - transmission_.counts(path_.sample(time).position));
   worst_ = std::max(worst_, final_);
   ++samples_;
 }

@@ -12,8 +12,11 @@ constexpr std::size_t kLongestLine = 200;
 
 }  // namespace
 
-SerialLink::SerialLink(const BusConfiguration& configuration, transport::SerialLine& line)
-    : line_(line), master_(configuration.name, configuration.serial.line) {}
+SerialLink::SerialLink(const BusConfiguration& configuration, transport::SerialLine& line,
+                       std::unique_ptr<BusDevice> device)
+    : BusLink(std::move(device)),
+      line_(line),
+      master_(configuration.name, configuration.serial.line) {}
 
 void SerialLink::receive(const WireObserver& observer) {
   show_sent(observer);
@@ -34,7 +37,7 @@ void SerialLink::show_sent(const WireObserver& observer) {
   sent_.clear();
 }
 
-void SerialLink::send(HostTime now) {
+void SerialLink::send_outgoing(HostTime now) {
   while (const auto text = master_.peek_outgoing(now)) {
     if (!line_.send(*text, now)) break;
     ++requests_;
@@ -45,11 +48,17 @@ void SerialLink::send(HostTime now) {
   peak_load_ = std::max(peak_load_, master_.load(now));
 }
 
-motion::BusSnapshot SerialLink::snapshot() const {
-  motion::BusSnapshot snapshot{name(), master_.load(), requests_, replies_, 0};
+void SerialLink::fill_traffic(motion::BusSnapshot& out) const {
+  out.load = master_.load();
+  out.frames_sent = requests_;
+  out.frames_received = replies_;
+}
+
+std::uint64_t SerialLink::unexpected() const {
+  std::uint64_t lines = 0;
   for (int cause = 0; cause < silverlode::kUnexpectedLineCauses; ++cause)
-    snapshot.unexpected += master_.unexpected(static_cast<silverlode::UnexpectedLine>(cause)).count;
-  return snapshot;
+    lines += master_.unexpected(static_cast<silverlode::UnexpectedLine>(cause)).count;
+  return lines;
 }
 
 std::vector<std::string> SerialLink::unexpected_traffic() const {

@@ -194,7 +194,7 @@ void Group::stop(HostTime now, Ending ending) {
 
 void Group::abort_with_fault_of(const axis::Axis& axis, HostTime now) {
   stop(now, {GoalOutcome::Aborted,
-             {GoalError::InvalidGoal, axis.fault_text() + " The other joints were stopped."}});
+             {GoalError::InvalidGoal, bus_faults() + axis.fault_text() + " The other joints were stopped."}});
 }
 
 RequestId Group::request(RequestKind kind, HostTime now) {
@@ -256,12 +256,22 @@ const axis::Axis* Group::faulted() const {
   return it == axes_.end() ? nullptr : *it;
 }
 
-std::string Group::faults() const {
+/// Sentences about buses that carry nothing, each followed by a blank.
+std::string Group::bus_faults() const {
   std::string text;
-  for (const axis::Axis* axis : axes_) {
-    if (is_faulted(*axis)) text += (text.empty() ? "" : " ") + axis->fault_text();
+  for (const axis::StartSignal* signal : signals_) {
+    const std::string fault = signal->fault();
+    if (!fault.empty()) text += fault + " ";
   }
-  return text + " Remove the cause, call ~reset_faults, then ~enable.";
+  return text;
+}
+
+std::string Group::faults() const {
+  std::string text = bus_faults();
+  for (const axis::Axis* axis : axes_) {
+    if (is_faulted(*axis)) text += axis->fault_text() + " ";
+  }
+  return text + "Remove the cause, call ~reset_faults, then ~enable.";
 }
 
 }  // namespace interpolated_motion::motion

@@ -53,16 +53,23 @@ void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status
 }
 
 void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {
-  if (bus.load > max_load) {
+  if (!bus.usable) {
+    status.summary(kError, bus.state);
+  } else if (bus.lost_frames > 0) {
+    status.summary(kWarn, fmt::format("{} frames were lost", bus.lost_frames));
+  } else if (bus.load > max_load) {
     status.summary(kWarn,
                    fmt::format("load {} is above the configured {}", percent(bus.load), percent(max_load)));
   } else {
     status.summary(kOk, fmt::format("load {}", percent(bus.load)));
   }
+  status.add("state", bus.state);
   status.add("load", percent(bus.load));
   status.add("frames sent", bus.frames_sent);
   status.add("frames received", bus.frames_received);
   status.add("unexpected frames", bus.unexpected);
+  status.add("error frames", bus.error_frames);
+  status.add("lost frames", bus.lost_frames);
 }
 
 void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status) {

@@ -34,7 +34,8 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
       hardware_(start_hardware(configuration)),
       action_(private_node(command_queue_), *hardware_, configuration.node.action_monitor_rate),
       command_(private_node(command_queue_), *hardware_, configuration.driver.joints),
-      queries_(private_node(command_queue_), *hardware_, configuration.driver.joints),
+      queries_(private_node(command_queue_), *hardware_, configuration.driver.joints,
+               configuration.node.emulated_samples),
       controls_(private_node(service_queue_), *hardware_),
       states_(private_node(publish_queue_), *hardware_, configuration.node.state_publish_rate),
       status_(private_node(publish_queue_), *hardware_, configuration.node.status_publish_rate),
@@ -51,16 +52,19 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
 }
 
 std::unique_ptr<HardwareThread> DriverNode::start_hardware(const LoadedConfiguration& configuration) {
-  auto hardware = std::make_unique<hardware::MotionHardware>(configuration.driver, host_now());
-  if (wire_log_) {
-    const auto append = [this](const std::string& bus, const auto& traffic) {
-      wire_log_->append(bus, traffic);
-    };
-    hardware->set_wire_observer({append, append});
-  }
+  const auto make = [&](const hardware::EventLoop& loop) {
+    auto hardware = std::make_unique<hardware::MotionHardware>(configuration.driver, host_now(), loop);
+    if (wire_log_) {
+      const auto append = [this](const std::string& bus, const auto& traffic) {
+        wire_log_->append(bus, traffic);
+      };
+      hardware->set_wire_observer({append, append});
+    }
+    return hardware;
+  };
   const HardwareThread::Settings settings{host_duration(configuration.node.loop_period),
                                           configuration.node.realtime_priority};
-  return std::make_unique<HardwareThread>(std::move(hardware), settings, listener());
+  return std::make_unique<HardwareThread>(make, settings, listener());
 }
 
 HardwareThread::Listener DriverNode::listener() {

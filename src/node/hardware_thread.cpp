@@ -16,9 +16,8 @@ constexpr HostDuration kShortestSleep = std::chrono::microseconds(100);
 
 }  // namespace
 
-HardwareThread::HardwareThread(std::unique_ptr<Hardware> hardware, const Settings& settings,
-                               Listener listener)
-    : hardware_(std::move(hardware)), settings_(settings), listener_(std::move(listener)) {
+HardwareThread::HardwareThread(const Factory& make, const Settings& settings, Listener listener)
+    : settings_(settings), listener_(std::move(listener)), hardware_(make({&io_, [this] { tick(); }})) {
   thread_ = std::thread([this] { run(); });
 }
 

@@ -78,6 +78,7 @@ NodeParameters parse_node_parameters(const YAML::Node& parameters) {
   node.realtime_priority = priority(parameters, "realtime_priority");
   node.wire_log = text(parameters, "wire_log");
   node.robot_description_file = text(parameters, "robot_description_file");
+  node.emulated_samples = text(parameters, "emulated_samples");
   if (flag(parameters, "publish_tf", false)) {
     refuse("publish_tf", parameters["publish_tf"],
            "false: robot_state_publisher makes link frames of /joint_states");
@@ -91,8 +92,8 @@ const std::vector<std::string>& node_parameter_keys() {
   static const std::vector<std::string> keys = [] {
     std::vector<std::string> all{"state_publish_rate", "action_monitor_rate", "status_publish_rate",
                                  "loop_period", "realtime_priority", "wire_log", "publish_tf",
-                                 "robot_description_file", "robot_description", "allow_fault_injection",
-                                 "allow_parameter_writes",
+                                 "robot_description_file", "robot_description", "emulated_samples",
+                                 "allow_fault_injection", "allow_parameter_writes",
                                  // read by diagnostic_updater and by actionlib
                                  "diagnostic_period", "follow_joint_trajectory"};
     all.insert(all.end(), controller_keys().begin(), controller_keys().end());

@@ -29,6 +29,16 @@ int open_far_end() {
   return fd;
 }
 
+/// A program that was killed leaves its link behind: it leads nowhere, or to a terminal made anew since. One
+/// that leads elsewhere is in use.
+void remove_stale_link(const std::string& path, const std::string& link) {
+  std::array<char, 64> target{};
+  const ssize_t length = readlink(link.c_str(), target.data(), target.size());
+  if (length < 0) return;
+  const std::string leads_to(target.data(), static_cast<std::size_t>(length));
+  if (leads_to == path || access(link.c_str(), F_OK) != 0) unlink(link.c_str());
+}
+
 }  // namespace
 
 class PseudoTerminal::Implementation {
@@ -66,11 +76,13 @@ PseudoTerminal::Implementation::Implementation(boost::asio::io_context& io, std:
   cfmakeraw(&settings);
   tcsetattr(near_end_, TCSANOW, &settings);
   if (link.empty()) return;
+  remove_stale_link(path, link);
   if (symlink(path.c_str(), link.c_str()) != 0) {
     const int error = errno;
     close(near_end_);
     errno = error;
-    fail("cannot make the link " + link);
+    fail("cannot make the link " + link +
+         (error == EEXIST ? " (served by another program? else remove it)" : ""));
   }
   path = link_ = std::move(link);
 }

@@ -49,8 +49,9 @@ class SerialPortLine::Implementation {
   std::vector<std::string> advice;
   SerialPortCounters counters;
   HostTime next_poll{};
-  HostTime retry_at{};  ///< when `unsent` is offered again
-  std::string unsent;   ///< the end of a text of which the kernel has taken the beginning
+  HostTime retry_at{};   ///< when `unsent` is offered again
+  bool refused = false;  ///< the latest text found no room
+  std::string unsent;    ///< the end of a text of which the kernel has taken the beginning
 
  private:
   std::size_t write(std::string_view text);
@@ -186,7 +187,9 @@ SerialPortLine::~SerialPortLine() = default;
 
 bool SerialPortLine::send(std::string_view text, HostTime now) {
   implementation_->retry_at = now + kRetryPeriod;
-  return implementation_->send(text);
+  const bool taken = implementation_->send(text);
+  implementation_->refused = !taken;
+  return taken;
 }
 
 std::optional<ReceivedCharacter> SerialPortLine::receive() { return implementation_->receive(); }
@@ -197,6 +200,7 @@ bool SerialPortLine::poll_port(HostTime now) {
     i.next_poll = now + kPollPeriod;
     i.open();
   }
+  if (now >= i.retry_at) i.refused = false;
   if (!i.unsent.empty() && now >= i.retry_at) {
     i.retry_at = now + kRetryPeriod;
     i.flush();
@@ -207,7 +211,7 @@ bool SerialPortLine::poll_port(HostTime now) {
 HostTime SerialPortLine::next_deadline() const {
   const Implementation& i = *implementation_;
   if (i.state != SerialPortState::Open) return i.next_poll;
-  return i.unsent.empty() ? kNever : i.retry_at;
+  return i.unsent.empty() && !i.refused ? kNever : i.retry_at;
 }
 
 SerialPortState SerialPortLine::state() const { return implementation_->state; }

@@ -103,7 +103,7 @@ def test_faults_come_from_the_standard_input(can, start):
     assert can.wait_for(0x081)[:2] == b"\x10\x23"
     assert drives.command("2 power_cycle 0.1") == "done: 2 power_cycle 0.1"
     assert can.wait_for(0x702) == b"\0"
-    assert drives.command("7 stall 1").startswith('refused: "7" is neither a drive nor the interface')
+    assert drives.command("7 stall 1").startswith('refused: "7" is neither a drive nor an interface')
     assert drives.command("1 explode").startswith('refused: "explode" is no fault')
     assert drives.command("vcan0 drop_id 0x581 1") == "done: vcan0 drop_id 0x581 1"
     can.send(0x601, struct.pack("<BHB4x", 0x40, 0x1018, 1))

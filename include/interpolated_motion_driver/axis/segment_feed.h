@@ -85,8 +85,11 @@ class SegmentFeed {
   std::size_t executing(double elapsed) const;
   void forget_old_stretches();
 
-  /// Stretches remembered; far more than any queue is deep.
-  static constexpr std::size_t kMemory = 64;
+  /// Stretches remembered: those of minutes, so that samples of the drive can be held against the path when
+  /// the motion is over.
+  static constexpr std::size_t kMemory = 4096;
+  /// Of these, the ones that the drive may be executing: far more than any queue is deep.
+  static constexpr std::size_t kRecent = 64;
 
   std::unique_ptr<Source> source_;
   encoding::ImsEncoding encoding_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
@@ -11,6 +13,9 @@ class StartSignal {
   virtual ~StartSignal() = default;
   /// Sends the signal behind everything that has been commanded on this bus before.
   virtual void signal(HostTime now) = 0;
+  /// Why the bus carries nothing at present, in one sentence with what to do. Empty when it does, or when
+  /// that is not known.
+  virtual std::string fault() const { return {}; }
 };
 
 }  // namespace interpolated_motion::axis

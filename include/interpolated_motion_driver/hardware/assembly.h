@@ -22,21 +22,23 @@ namespace interpolated_motion::hardware {
 /// drives of emulated buses. Built once; nothing of it moves afterwards.
 class Assembly {
  public:
-  /// Throws std::invalid_argument, std::runtime_error (a bus that cannot be opened).
-  Assembly(const Configuration& configuration, HostTime start);
+  /// `loop` is needed for buses outside of the process. Throws std::invalid_argument.
+  Assembly(const Configuration& configuration, HostTime start, EventLoop loop);
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
+  /// Whether any bus is emulated: only then time passes in world().
+  bool emulates() const { return !virtual_can_buses_.empty() || !virtual_lines_.empty(); }
   emulation::World& world() { return world_; }
   const std::vector<std::unique_ptr<BusLink>>& links() const { return links_; }
   const std::vector<std::unique_ptr<axis::Axis>>& axes() const { return axes_; }  ///< as `joints` orders them
 
   /// From now on the samples of each emulated drive are held against the path of its joint.
-  void begin_audits(const std::vector<trajectory::Path>& paths);
+  void begin_audits(const std::vector<trajectory::Path>& paths, HostTime now);
   /// The drives have been told to leave their paths.
-  void end_audits();
+  void end_audits(HostTime now);
   /// One per joint; without a sample while the joint's drive is not emulated.
-  const std::vector<PathAudit>& audits() const { return audits_; }
+  std::vector<PathAudit>& audits() { return audits_; }
   /// `observer` sees all samples that are audited.
   void set_sample_observer(SampleObserver observer) { sample_observer_ = std::move(observer); }
 
@@ -47,8 +49,13 @@ class Assembly {
  private:
   using Injector = std::function<bool(const std::string& command, HostTime now, std::string* reason)>;
 
-  void add_can_bus(const BusConfiguration& bus);
-  void add_serial_line(const BusConfiguration& bus);
+  void add_bus(const Configuration& configuration, const BusConfiguration& bus);
+  void add_emulated_can_bus(const BusConfiguration& bus);
+  void add_emulated_line(const BusConfiguration& bus);
+  void add_socketcan_bus(const Configuration& configuration, const BusConfiguration& bus);
+  void add_serial_port(const BusConfiguration& bus);
+  void add_link(std::unique_ptr<CanLink> link);
+  void add_link(std::unique_ptr<SerialLink> link);
   void add_epos(const Configuration& configuration, const DriveConfiguration& drive);
   void add_silverlode(const Configuration& configuration, const DriveConfiguration& drive);
   void emulate_epos(const DriveConfiguration& drive, std::size_t index);
@@ -56,6 +63,7 @@ class Assembly {
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;
+  EventLoop loop_;
   std::map<std::string, BusConfiguration> bus_configurations_;
   std::map<std::string, CanLink*> can_links_;
   std::map<std::string, SerialLink*> serial_links_;

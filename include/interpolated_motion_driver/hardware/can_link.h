@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,25 +14,30 @@ namespace interpolated_motion::hardware {
 /// One CAN bus with its CANopen master. Its start signal is SYNC.
 class CanLink : public BusLink {
  public:
-  /// `bus` must outlive the link.
-  CanLink(const BusConfiguration& configuration, transport::CanBus& bus);
+  /// `bus` must live as long as the link or, if it is that of `device`, as the device.
+  CanLink(const BusConfiguration& configuration, transport::CanBus& bus,
+          std::unique_ptr<BusDevice> device = nullptr);
 
   canopen::Master& master() { return master_; }
   const std::string& name() const override { return master_.bus_name(); }
 
   void receive(const WireObserver& observer) override;
   void poll(HostTime now) override { master_.poll(now); }
-  void send(HostTime now) override;
-  HostTime next_deadline() const override { return master_.next_deadline(); }
   void signal(HostTime now) override { master_.request_sync(now); }
 
-  motion::BusSnapshot snapshot() const override;
   double peak_load() const override { return peak_load_; }
   void reset_peak_load() override { peak_load_ = 0.0; }
+  std::uint64_t unexpected() const override;
   std::vector<std::string> unexpected_traffic() const override;
 
   /// Share of the bus that one motion record takes, s.
   double record_bus_time() const;
+
+ protected:
+  HostTime master_deadline() const override { return master_.next_deadline(); }
+  void send_outgoing(HostTime now) override;
+  void clear_outgoing() override { master_.clear_outgoing(); }
+  void fill_traffic(motion::BusSnapshot& out) const override;
 
  private:
   transport::CanBus& bus_;

@@ -19,11 +19,28 @@
 
 namespace interpolated_motion::hardware {
 
-/// Where the drives of a bus are: emulated within the process.
-enum class TransportKind { Emulated };
+/// Where the drives of a bus are.
+enum class TransportKind {
+  Emulated,   ///< within the process
+  Socketcan,  ///< behind a CAN interface of the kernel
+  Serial,     ///< behind a serial port
+};
 
 /// The protocol of a bus.
 enum class BusType { Canopen, Silverlode };
+
+/// The CAN interface of a bus with transport `socketcan`.
+struct SocketcanConfiguration {
+  std::string interface;     ///< "can0"
+  bool receive_all = false;  ///< frames of nodes that are not configured too, for the wire log and the load
+};
+
+/// The serial port of a bus with transport `serial`.
+struct SerialPortConfiguration {
+  std::string device;       ///< "/dev/ttyUSB0"
+  bool low_latency = true;  ///< pass characters on at once, where the adapter can
+  bool rs485 = false;       ///< let the UART switch the direction by RTS
+};
 
 /// What only serial lines have.
 struct SerialLineConfiguration {
@@ -38,6 +55,8 @@ struct BusConfiguration {
   std::string name;
   BusType type = BusType::Canopen;
   TransportKind transport = TransportKind::Emulated;
+  SocketcanConfiguration socketcan;
+  SerialPortConfiguration port;
   SerialLineConfiguration serial;
   std::uint32_t bitrate = 1'000'000;  ///< bit/s
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback

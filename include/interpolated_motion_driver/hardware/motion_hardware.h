@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/hardware/bus_device.h"
 #include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/hardware/demand_sample.h"
 #include "interpolated_motion_driver/hardware/event_log.h"
@@ -30,12 +31,14 @@ struct JointHandle {
 /// where the configuration asks for them. Not thread-safe: one thread owns it. Nothing blocks and no clock is
 /// read; it lives on the times it is given, so it runs in virtual time as well as in real time.
 ///
-/// Typical loop: `update(now)`, take results, sleep until `next_deadline()` (at most a few ms), again.
+/// Typical loop: `update(now)`, take results, sleep until `next_deadline()` (at most a few ms) or until
+/// EventLoop::wake is called, again.
 class MotionHardware {
  public:
-  /// Composes everything; drives are looked for from `now` on. Throws std::invalid_argument,
-  /// std::runtime_error (a bus that cannot be opened).
-  MotionHardware(const Configuration& configuration, HostTime now);
+  /// Composes everything; drives are looked for from `now` on. `loop` is needed for buses that are not
+  /// emulated; an interface or a port that is not there is no error, it may come. Throws
+  /// std::invalid_argument.
+  MotionHardware(const Configuration& configuration, HostTime now, EventLoop loop = {});
   ~MotionHardware();
   MotionHardware(const MotionHardware&) = delete;
   MotionHardware& operator=(const MotionHardware&) = delete;
@@ -44,7 +47,8 @@ class MotionHardware {
   void read(HostTime now, HostDuration period);
   /// As hardware_interface::RobotHW: sends what is due at `now`.
   void write(HostTime now, HostDuration period);
-  /// read() and write() at `now`; with emulated drives, everything in between happens at its own time.
+  /// read() and write() at `now`; with emulated buses, everything since the last call happens at its own
+  /// time.
   void update(HostTime now);
   /// When update() should be called next at the latest.
   HostTime next_deadline() const;
@@ -81,6 +85,11 @@ class MotionHardware {
 
   /// `observer` sees everything that crosses any bus from now on.
   void set_wire_observer(WireObserver observer);
+
+  /// Samples of a drive that another program emulates, for the report of the last goal: forgets those there
+  /// are, takes one more. `joint` is a number in joints(). For tests and demonstrations.
+  void forget_samples(std::size_t joint);
+  void add_sample(std::size_t joint, const DemandSample& sample);
 
   /// `observer` is called at each 1 ms sample of an emulated drive, with the number of its joint in joints().
   void set_sample_observer(SampleObserver observer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,22 +15,27 @@ namespace interpolated_motion::hardware {
 /// begin.
 class SerialLink : public BusLink {
  public:
-  /// `line` must outlive the link.
-  SerialLink(const BusConfiguration& configuration, transport::SerialLine& line);
+  /// `line` must live as long as the link or, if it is that of `device`, as the device.
+  SerialLink(const BusConfiguration& configuration, transport::SerialLine& line,
+             std::unique_ptr<BusDevice> device = nullptr);
 
   silverlode::LineMaster& master() { return master_; }
   const std::string& name() const override { return master_.line_name(); }
 
   void receive(const WireObserver& observer) override;
   void poll(HostTime now) override { master_.poll(now); }
-  void send(HostTime now) override;
-  HostTime next_deadline() const override { return master_.next_deadline(); }
   void signal(HostTime) override {}
 
-  motion::BusSnapshot snapshot() const override;
   double peak_load() const override { return peak_load_; }
   void reset_peak_load() override { peak_load_ = 0.0; }
+  std::uint64_t unexpected() const override;
   std::vector<std::string> unexpected_traffic() const override;
+
+ protected:
+  HostTime master_deadline() const override { return master_.next_deadline(); }
+  void send_outgoing(HostTime now) override;
+  void clear_outgoing() override { master_.clear_outgoing(); }
+  void fill_traffic(motion::BusSnapshot& out) const override;
 
  private:
   void show_sent(const WireObserver& observer);

@@ -110,6 +110,7 @@ class Group {
   bool all(axis::AxisState state) const;
   bool any(axis::AxisState state) const;
   const axis::Axis* faulted() const;
+  std::string bus_faults() const;
   std::string faults() const;
 
   GroupParameters parameters_;

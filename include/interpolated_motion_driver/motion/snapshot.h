@@ -47,7 +47,11 @@ struct BusSnapshot {
   double load = 0.0;  ///< 0..1, over the last second
   std::uint64_t frames_sent = 0;
   std::uint64_t frames_received = 0;
-  std::uint64_t unexpected = 0;  ///< frames nobody was waiting for
+  std::uint64_t unexpected = 0;    ///< frames nobody was waiting for
+  bool usable = true;              ///< frames can travel: the interface is up, the port is open
+  std::string state;               ///< of interface or port, in one sentence with what to do
+  std::uint64_t error_frames = 0;  ///< reports of the CAN controller about a disturbed bus
+  std::uint64_t lost_frames = 0;   ///< frames the kernel had no room for, and frames never seen on the bus
 };
 
 enum class GroupState {

@@ -19,7 +19,8 @@ using DiagnosticStatus = diagnostic_updater::DiagnosticStatusWrapper;
 void diagnose_group(const motion::Snapshot& snapshot, DiagnosticStatus& status);
 /// One drive: ERROR when it is silent or in fault, WARN when its buffer has run dry or it refused records.
 void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status);
-/// One bus: WARN when it carries more than `max_load` of its bit rate.
+/// One bus: ERROR with what to do when it cannot be used, WARN when frames were lost on this host or when it
+/// carries more than `max_load` of its bit rate.
 void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status);
 /// The wire log: WARN when frames are missing in it.
 void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status);

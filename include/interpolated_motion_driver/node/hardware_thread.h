@@ -40,8 +40,11 @@ class HardwareThread {
     int realtime_priority = 0;                                ///< SCHED_FIFO, 0: off
   };
 
-  /// Takes over `hardware` and starts the thread.
-  HardwareThread(std::unique_ptr<Hardware> hardware, const Settings& settings, Listener listener);
+  /// Makes the hardware that is to wait in the loop given, on the caller's thread.
+  using Factory = std::function<std::unique_ptr<Hardware>(const hardware::EventLoop& loop)>;
+
+  /// Calls `make` and starts the thread. Throws what `make` throws.
+  HardwareThread(const Factory& make, const Settings& settings, Listener listener);
   /// Ends the thread at once; shut_down() is the polite way.
   ~HardwareThread();
   HardwareThread(const HardwareThread&) = delete;
@@ -80,12 +83,12 @@ class HardwareThread {
   void schedule();
   void stop();
 
-  std::unique_ptr<Hardware> hardware_;
   const Settings settings_;
   const Listener listener_;
 
   boost::asio::io_context io_;
   boost::asio::steady_timer timer_{io_};
+  std::unique_ptr<Hardware> hardware_;
   std::map<motion::RequestId, PromisedResult> requests_;
 
   motion::Snapshot back_;  ///< the thread's own, exchanged with front_

@@ -17,7 +17,8 @@ struct NodeParameters {
   int realtime_priority = 0;          ///< SCHED_FIFO priority of the bus thread; 0: the normal scheduler
   std::string wire_log;               ///< file for all bus traffic; empty: none
   std::string
-      robot_description_file;  ///< URDF file, used when no robot_description is on the parameter server
+      robot_description_file;    ///< URDF file, used when no robot_description is on the parameter server
+  std::string emulated_samples;  ///< folder of `emulated_drives --samples`; empty: none
   bool allow_fault_injection = false;   ///< offer ~inject_fault for emulated drives
   bool allow_parameter_writes = false;  ///< permit writing objects or registers of the drives
 };

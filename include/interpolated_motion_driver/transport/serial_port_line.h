@@ -61,7 +61,8 @@ class SerialPortLine : public SerialLine {
   /// port is a new one, since the last call.
   bool poll_port(HostTime now);
 
-  /// When to call poll_port() again; kNever while the port is open and has taken everything.
+  /// When to call poll_port(), or send() for a text that was refused, again; kNever while the port is open
+  /// and has taken everything.
   HostTime next_deadline() const;
 
   SerialPortState state() const;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "interpolated_motion_driver/hardware/demand_sample.h"
+
+namespace interpolated_motion::emulated_drives {
+
+/// Writes the samples of one drive's latest motion to FOLDER/NAME, from the first one that interpolates until
+/// the drive stands; a new motion begins the file anew. A line a sample: host time in ns (CLOCK_MONOTONIC),
+/// time of the drive since the start of its motion in s, demand and actual position in counts, and 1 while it
+/// interpolates. The file is complete up to the end of the interpolation before the drive tells of it.
+class SampleFile {
+ public:
+  /// Throws std::runtime_error when the file cannot be written.
+  SampleFile(const std::string& folder, const std::string& name);
+
+  void add(const hardware::DemandSample& sample, bool interpolating);
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  void open();
+
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::optional<hardware::DemandSample> last_;
+  bool moving_ = false;
+  bool interpolating_ = false;
+};
+
+}  // namespace interpolated_motion::emulated_drives
