@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
 
@@ -15,7 +14,6 @@ namespace interpolated_motion::axis {
 
 using namespace std::chrono_literals;
 namespace object = cia402::object;
-namespace cw = cia402::controlword;
 using canopen::sdo_write;
 using canopen::SdoResult;
 
@@ -38,7 +36,11 @@ void require_finite(const EposAxisParameters& parameters, double value, const ch
 }  // namespace
 
 EposAxis::EposAxis(EposAxisParameters parameters, canopen::Master& master, canopen::NodeLink& node)
-    : parameters_(std::move(parameters)), master_(master), node_(node), sequence_(node) {
+    : parameters_(std::move(parameters)),
+      master_(master),
+      node_(node),
+      sequence_(node),
+      controlword_(master, node, epos_pdo::kControlwordRpdo) {
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");
   node_.set_tpdo_handler(
@@ -254,61 +256,28 @@ void EposAxis::reset_fault(HostTime now) {
   enter(Phase::Resetting, now);
 }
 
-// The reset acts on the rising edge of bit 7, so 0x0000 goes before it. A drive that was stopped by the host,
-// without a fault of its own, is switched off by the same 0x0000.
 void EposAxis::poll_resetting(HostTime now) {
-  const cia402::State state = telemetry_.statusword.state();
-  if (command_time_ < phase_since_) return command(cw::kDisableVoltage, now);
-  const bool fresh = applied() && telemetry_.status_time > master_.last_sync_time();
-  if (!fresh) {
-    if (now - command_time_ >= kRepeatCommand) command(commanded_, now);
-  } else if (state == cia402::State::SwitchOnDisabled) {
+  if (controlword_.reset(telemetry_.statusword.state(), telemetry_.status_time, phase_since_, now)) {
     error_code_ = 0;
     error_text_.clear();
     return enter(Phase::Disabled, now);
-  } else if (now - command_time_ >= kRepeatCommand) {
-    command(commanded_ == cw::kFaultReset ? cw::kDisableVoltage : cw::kFaultReset, now);
-  } else if (commanded_ == cw::kDisableVoltage && state == cia402::State::Fault) {
-    command(cw::kFaultReset, now);
   }
   if (expired(now, kStateTimeout)) fail("the fault cannot be reset: " + drive_fault(), now);
 }
 
 /// Sends the controlwords that lead to `target`; true once the drive is there.
 bool EposAxis::walk_to(cia402::State target, HostTime now) {
-  const cia402::ControlStep step = cia402::next_controlword(telemetry_.statusword.state(), target);
-  if (step.kind == cia402::ControlStep::Kind::Arrived) return true;
-  if (step.kind == cia402::ControlStep::Kind::NeedsFaultReset) {
+  using Progress = ControlwordLink::Progress;
+  const Progress progress = controlword_.walk(telemetry_.statusword.state(), target, phase_since_, now);
+  if (progress == Progress::Arrived) return true;
+  if (progress == Progress::NeedsFaultReset) {
     fail(drive_fault(), now);
-    return false;
-  }
-  const bool unsent = command_time_ < phase_since_ || commanded_ != step.controlword;
-  if (step.kind == cia402::ControlStep::Kind::Send && (unsent || now - command_time_ >= kRepeatCommand)) {
-    command(step.controlword, now);
-  }
-  if (expired(now, kStateTimeout)) {
+  } else if (expired(now, kStateTimeout)) {
     fail(fmt::format("the drive does not get to \"{}\" within {:.0f} s; statusword: {}",
                      cia402::to_text(target), seconds(kStateTimeout), telemetry_.statusword.text()),
          now);
   }
   return false;
-}
-
-void EposAxis::command(std::uint16_t controlword, HostTime now) {
-  std::uint8_t data[2];
-  canopen::put_le(data, controlword);
-  if (!node_.send_rpdo(epos_pdo::kControlwordRpdo, data, sizeof(data))) return;
-  const std::uint64_t confirmed = node_.rpdos_confirmed(epos_pdo::kControlwordRpdo);
-  const bool last_is_lost = now - command_time_ >= kRepeatCommand;
-  commands_due_ = (last_is_lost ? confirmed : std::max(commands_due_, confirmed)) + 1;
-  commanded_ = controlword;
-  command_time_ = now;
-}
-
-/// The last controlword and a SYNC behind it have been on the bus.
-bool EposAxis::applied() const {
-  return node_.rpdos_confirmed(epos_pdo::kControlwordRpdo) >= commands_due_ &&
-         master_.last_sync_time() > node_.last_rpdo_time(epos_pdo::kControlwordRpdo);
 }
 
 bool EposAxis::sequence_done(HostTime now) {

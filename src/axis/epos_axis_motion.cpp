@@ -143,14 +143,14 @@ void EposAxis::arm(HostTime, HostTime now) {
   enter(Phase::Armed, now);
   reports_taken_ = telemetry_.buffer_reports;
   fill_mismatches_ = 0;
-  command(cw::kStartInterpolation, now);
+  controlword_.send(cw::kStartInterpolation, now);
 }
 
 HostTime EposAxis::path_begin() const { return clock_.running() ? clock_.host_time(wait_.count()) : kNever; }
 
 /// The drive starts at its first sample after SYNC.
 void EposAxis::start_clock() {
-  if (clock_.running() || !applied()) return;
+  if (clock_.running() || !controlword_.applied()) return;
   clock_.start(master_.last_sync_time() + host_duration(kHalfSample), facts_.takes_time_stamps);
 }
 
@@ -203,13 +203,13 @@ void EposAxis::end_of_motion(HostTime now) {
   }
   rest_counts_ = feed_.stream().records.back().position;
   enter(Phase::Ending, now);
-  command(cw::kEnableOperation, now);
+  controlword_.send(cw::kEnableOperation, now);
 }
 
 // The next start needs a rising edge of bit 4, so the drive must have seen it fall.
 void EposAxis::poll_ending(HostTime now) {
-  if (!applied()) {
-    if (now - command_time_ >= kRepeatCommand) command(cw::kEnableOperation, now);
+  if (!controlword_.applied()) {
+    if (controlword_.overdue(now)) controlword_.send(cw::kEnableOperation, now);
     return;
   }
   finished_ = true;
@@ -300,7 +300,7 @@ void EposAxis::stop(HostTime now) {
     case Phase::Armed:
     case Phase::Moving:
       enter(Phase::Braking, now);
-      return command(cw::kStartInterpolation | cw::kHaltBit, now);
+      return controlword_.send(cw::kStartInterpolation | cw::kHaltBit, now);
     case Phase::Ending:
       return;
     case Phase::Clearing:
@@ -316,13 +316,13 @@ void EposAxis::stop(HostTime now) {
 // With halt set, "target reached" means standstill. It counts when the drive has sent it after it took the
 // halt.
 void EposAxis::poll_braking(HostTime now) {
-  const bool fresh = applied() && telemetry_.status_time > master_.last_sync_time() &&
+  const bool fresh = controlword_.applied() && telemetry_.status_time > master_.last_sync_time() &&
                      telemetry_.motion_time > node_.last_rpdo_time(epos_pdo::kControlwordRpdo) + kLatchTime;
   if (fresh && telemetry_.statusword.target_reached()) {
-    command(cw::kHalt, now);
+    controlword_.send(cw::kHalt, now);
     return start_emptying(now);
   }
-  if (!applied() && now - command_time_ >= kRepeatCommand) command(commanded_, now);
+  if (!controlword_.applied() && controlword_.overdue(now)) controlword_.send(controlword_.word(), now);
   const double longest = parameters_.limits.max_velocity / parameters_.limits.max_acceleration;
   if (expired(now, host_duration(2.0 * longest) + kOvertime)) {
     fail_in_motion("the drive was told to halt but does not come to rest", now);
@@ -336,8 +336,8 @@ void EposAxis::start_emptying(HostTime now) {
 
 // Halt is taken back last, when neither bit 4 nor a record could make the drive go on.
 void EposAxis::poll_emptying(HostTime now) {
-  if (!sequence_done(now) || !applied()) return;
-  if (commanded_ != cw::kEnableOperation) return command(cw::kEnableOperation, now);
+  if (!sequence_done(now) || !controlword_.applied()) return;
+  if (controlword_.word() != cw::kEnableOperation) return controlword_.send(cw::kEnableOperation, now);
   enter(Phase::Ready, now);
 }
 
@@ -345,7 +345,7 @@ void EposAxis::poll_emptying(HostTime now) {
 /// reset.
 void EposAxis::fail_in_motion(const std::string& reason, HostTime now) {
   fail(reason, now);
-  command(cw::kStartInterpolation | cw::kHaltBit, now);
+  controlword_.send(cw::kStartInterpolation | cw::kHaltBit, now);
   master_.request_sync(now);
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/axis/epos_telemetry.h"
+#include "interpolated_motion_driver/axis/sdo_steps.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
 #include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
@@ -17,34 +18,18 @@ namespace interpolated_motion::axis {
 namespace object = cia402::object;
 using canopen::sdo_write;
 using canopen::SdoResult;
-using Step = SdoSequence::Step;
-using Steps = std::vector<Step>;
+using sdo_steps::Step;
+using sdo_steps::Steps;
 using Failure = std::optional<std::string>;
 
 namespace {
+
+using namespace sdo_steps;
 
 constexpr int kFinestVelocityNotation = -3;
 
 // ---- identity
 // ------------------------------------------------------------------------------------------------------
-
-Step read_device_type() {
-  return SdoSequence::read(object::kDeviceType, [](const SdoResult& r) -> Failure {
-    if (!r.ok) return r.text();
-    if ((r.as_u32() & 0xFFFFu) == cia402::kServoDriveProfile) return std::nullopt;
-    return fmt::format(
-        "the device is no servo drive: device type 0x1000 is 0x{:08X}, its low word must be 402 (CiA 402)",
-        r.as_u32());
-  });
-}
-
-Step read_identity(canopen::ObjectAddress address, std::uint32_t& to) {
-  return SdoSequence::read(address, [&to](const SdoResult& r) -> Failure {
-    if (!r.ok) return r.text();
-    to = r.as_u32();
-    return std::nullopt;
-  });
-}
 
 Step read_vendor(EposFacts& facts) {
   return SdoSequence::read(object::kVendorId, [&facts](const SdoResult& r) -> Failure {
@@ -73,25 +58,6 @@ Step require_interpolation_object(canopen::ObjectAddress address, EposFacts& fac
   });
 }
 
-Step require_value(canopen::ObjectAddress address, std::int64_t wanted, const char* meaning) {
-  return SdoSequence::read(address, [wanted, meaning](const SdoResult& r) -> Failure {
-    if (!r.ok) return r.text();
-    const std::int64_t found = wanted < 0 ? r.as_i64() : static_cast<std::int64_t>(r.as_u64());
-    if (found == wanted) return std::nullopt;
-    return fmt::format("object {} ({}) is {}, it must be {}", canopen::to_string(r.address), meaning, found,
-                       wanted);
-  });
-}
-
-Step require_mode_support() {
-  return SdoSequence::read(object::kSupportedDriveModes, [](const SdoResult& r) -> Failure {
-    if (!r.ok) return r.text();
-    if (cia402::supports(r.as_u32(), cia402::Mode::InterpolatedPosition)) return std::nullopt;
-    return fmt::format("the drive does not support mode 7: supported drive modes 0x6502 are {}",
-                       cia402::supported_modes_text(r.as_u32()));
-  });
-}
-
 Step read_capacity(EposFacts& facts) {
   return SdoSequence::read(object::kMaximumBufferSize, [&facts](const SdoResult& r) -> Failure {
     if (!r.ok) return r.text();
@@ -102,19 +68,17 @@ Step read_capacity(EposFacts& facts) {
   });
 }
 
-void append(Steps& steps, Steps more) { std::move(more.begin(), more.end(), std::back_inserter(steps)); }
-
 Steps verification(EposFacts& facts) {
   return {read_device_type(),
           read_vendor(facts),
-          read_identity(object::kProductCode, facts.identity.product),
-          read_identity(object::kRevisionNumber, facts.identity.revision),
-          read_identity(object::kSerialNumber, facts.identity.serial),
+          read_u32(object::kProductCode, facts.identity.product),
+          read_u32(object::kRevisionNumber, facts.identity.revision),
+          read_u32(object::kSerialNumber, facts.identity.serial),
           require_interpolation_object(object::kInterpolationSubMode, facts),
           require_interpolation_object(object::kMaximumBufferSize, facts),
           require_interpolation_object(object::kBufferStatus, facts),
           read_capacity(facts),
-          require_mode_support(),
+          require_mode(cia402::Mode::InterpolatedPosition),
           require_value(object::kInterpolationSubMode, cia402::kCubicSplineSubMode,
                         "interpolation sub mode, -1 is PVT"),
           require_value(object::kInterpolationPeriod, 1, "interpolation period in ms"),
@@ -131,14 +95,6 @@ Steps verification(EposFacts& facts) {
 
 // ---- limits and units
 // ----------------------------------------------------------------------------------------------
-
-std::uint32_t to_u32(double value) {
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(value), 1.0, 4294967295.0));
-}
-
-Step write_u32(canopen::ObjectAddress address, std::uint32_t value) {
-  return SdoSequence::write(sdo_write<std::uint32_t>(address, value));
-}
 
 struct VelocityUnitSearch {
   const EposAxisParameters& parameters;
@@ -196,12 +152,6 @@ Steps motion_limits(const EposAxisParameters& parameters, EposFacts& facts) {
           write_u32(object::kQuickStopDeceleration, acceleration)};
 }
 
-std::int32_t to_i32(double counts) {
-  constexpr double kLow = std::numeric_limits<std::int32_t>::min();
-  constexpr double kHigh = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(counts, kLow, kHigh));
-}
-
 /// The drive's own position limits lie two counts outside the joint's, so that rounding never trips them.
 Steps position_limits(const EposAxisParameters& parameters) {
   double low = std::numeric_limits<std::int32_t>::min();
@@ -237,16 +187,6 @@ Steps supervision(const EposAxisParameters& parameters) {
 
 // ---- PDOs
 // ----------------------------------------------------------------------------------------------------------
-
-Steps writes(const std::vector<canopen::SdoWrite>& list) {
-  Steps steps;
-  for (const auto& write : list) steps.push_back(SdoSequence::write(write));
-  return steps;
-}
-
-Steps pdo(const canopen::PdoConfiguration& configuration, std::uint8_t node) {
-  return writes(canopen::pdo_configuration(configuration, node));
-}
 
 /// 0x60C4:02 can be mapped by maxon's application note, cannot by its EDS, and is mapped by robots that run:
 /// tried, and read by SDO where the drive refuses. Must be the last steps of the sequence.

@@ -37,6 +37,9 @@ void validate(const CyclicParameters& p) {
   require(p.sdo_response_time >= HostDuration::zero(), p, "sdo_response_time", p.sdo_response_time.count(),
           "0 ns or more");
   require(p.sync_gain > 0.0 && p.sync_gain <= 1.0, p, "sync_gain", p.sync_gain, "above 0 to 1");
+  require(p.interpolation_order >= 1 && p.interpolation_order <= 3, p, "interpolation_order",
+          p.interpolation_order, "1..3");
+  require(p.ride_through >= 0 && p.ride_through <= 100, p, "ride_through", p.ride_through, "0..100");
   require(p.plant.lag_ms >= 0.0, p, "plant.lag_ms", p.plant.lag_ms, "0 or more");
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/cyclic_axis.h"
 #include "interpolated_motion_driver/axis/epos_axis.h"
 #include "interpolated_motion_driver/axis/queue_delivery.h"
 #include "interpolated_motion_driver/axis/register_delivery.h"
@@ -59,6 +60,28 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   return parameters;
 }
 
+axis::CyclicAxisParameters cyclic_parameters(const Configuration& configuration,
+                                             const DriveConfiguration& drive, const BusConfiguration& bus,
+                                             double record_bus_time) {
+  axis::CyclicAxisParameters parameters;
+  parameters.joint = drive.joint;
+  parameters.transmission = drive.transmission;
+  parameters.limits = drive.limits;
+  parameters.deviation_bound = drive.deviation_bound;
+  parameters.max_following_error = drive.max_following_error;
+  parameters.record_bus_time = record_bus_time;
+  parameters.sync_period = host_duration(bus.sync_period);
+  parameters.interpolation_order = drive.cyclic.interpolation_order;
+  parameters.servo_period = drive.cyclic.servo_period;
+  parameters.velocity_unit = drive.cyclic.velocity_unit;
+  parameters.acceleration_unit = drive.cyclic.acceleration_unit;
+  parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
+  parameters.heartbeat_period = host_duration(bus.heartbeat_period);
+  parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
+  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
+  return parameters;
+}
+
 double segment_time(const DriveConfiguration& drive, const silverlode::LineMaster& line) {
   return drive.silverlode.queue == axis::SegmentQueue::Registers ? axis::RegisterDelivery::segment_time(line)
                                                                  : axis::QueueDelivery::segment_time(line);
@@ -106,7 +129,7 @@ Assembly::Assembly(const Configuration& configuration, HostTime start, EventLoop
   for (const BusConfiguration& bus : configuration.buses) add_bus(configuration, bus);
   audits_.reserve(configuration.drives.size());
   for (const DriveConfiguration& drive : configuration.drives) {
-    drive.type == DriveType::EposIpm ? add_epos(configuration, drive) : add_silverlode(configuration, drive);
+    add_drive(configuration, drive);
   }
 }
 
@@ -171,6 +194,17 @@ void Assembly::add_emulated_line(const BusConfiguration& bus) {
   };
 }
 
+void Assembly::add_drive(const Configuration& configuration, const DriveConfiguration& drive) {
+  switch (drive.type) {
+    case DriveType::EposIpm:
+      return add_epos(configuration, drive);
+    case DriveType::SilverlodeIms:
+      return add_silverlode(configuration, drive);
+    case DriveType::Cyclic:
+      return add_cyclic(configuration, drive);
+  }
+}
+
 void Assembly::add_epos(const Configuration& configuration, const DriveConfiguration& drive) {
   CanLink& link = *can_links_.at(drive.bus);
   canopen::NodeLink& node = link.master().add_node(static_cast<std::uint8_t>(drive.node_id));
@@ -218,6 +252,34 @@ void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t i
     emulated.set_sample_observer([this, index, tick](const emulation::SilverDustSample& sample) {
       const double elapsed = tick * static_cast<double>(sample.ticks_since_start);
       if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
+    });
+  });
+  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
+    return inject_drive_fault(emulated, command, now, reason);
+  };
+}
+
+void Assembly::add_cyclic(const Configuration& configuration, const DriveConfiguration& drive) {
+  CanLink& link = *can_links_.at(drive.bus);
+  canopen::NodeLink& node = link.master().add_node(static_cast<std::uint8_t>(drive.node_id));
+  const std::size_t index = axes_.size();
+  axes_.push_back(std::make_unique<axis::CyclicAxis>(
+      cyclic_parameters(configuration, drive, bus_configurations_.at(drive.bus), link.record_bus_time()),
+      link.master(), node));
+  audits_.emplace_back(drive.transmission, *axes_.back());
+  if (virtual_can_buses_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_cyclic(drive, index);
+}
+
+// The drive has no clock of its own for the motion: it follows SYNC, that is the host's time.
+void Assembly::emulate_cyclic(const DriveConfiguration& drive, std::size_t index) {
+  emulation::CyclicDrive& emulated =
+      world_.add_cyclic(*virtual_can_buses_.at(drive.bus), drive.cyclic.emulated);
+  sampling_.push_back([this, index, &emulated](bool on) {
+    if (!on) return emulated.set_sample_observer({});
+    emulated.set_sample_observer([this, index](const emulation::CyclicSample& sample) {
+      const HostTime begin = axes_[index]->path_begin();
+      if (!sample.following || begin == kNever) return;
+      take(index, {sample.time, seconds(sample.time - begin), sample.demand, sample.actual});
     });
   });
   injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {

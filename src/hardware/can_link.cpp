@@ -16,6 +16,7 @@ canopen::MasterParameters master_parameters(const BusConfiguration& configuratio
   parameters.heartbeat_period = host_duration(configuration.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(configuration.heartbeat_timeout);
   parameters.sync_period = host_duration(configuration.sync_period);
+  parameters.isochronous = configuration.isochronous;
   parameters.time_stamp_period = configuration.time_stamp_period();
   parameters.bitrate = configuration.bitrate;
   parameters.max_bulk_load = configuration.max_load;
@@ -49,6 +50,10 @@ void CanLink::fill_traffic(motion::BusSnapshot& out) const {
   out.load = master_.bus_load();
   out.frames_sent = sent_;
   out.frames_received = received_;
+  const canopen::SyncTiming& timing = master_.sync_timing();
+  out.sync_delay = timing.delay();
+  out.sync_jitter = timing.jitter();
+  out.syncs_skipped = timing.skipped();
 }
 
 std::uint64_t CanLink::unexpected() const {

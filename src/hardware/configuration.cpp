@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/hardware/cyclic_configuration.h"
 #include "interpolated_motion_driver/hardware/emulation_configuration.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
 #include "interpolated_motion_driver/hardware/silverlode_configuration.h"
@@ -137,24 +138,44 @@ encoding::Transmission parse_transmission(ParameterReader& reader) {
 }
 
 /// Counts, of the drive's demand from the path.
-double default_bound(DriveType type) { return type == DriveType::EposIpm ? 1.0 : 2.0; }
+double default_bound(DriveType type) {
+  switch (type) {
+    case DriveType::EposIpm:
+      return 1.0;
+    case DriveType::SilverlodeIms:
+      return 2.0;
+    case DriveType::Cyclic:
+      break;
+  }
+  return 5.0;
+}
 
 DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader, const Urdf& urdf) {
   DriveConfiguration drive;
   drive.joint = joint;
   drive.bus = reader.required_text("bus");
-  drive.type = reader.choice(
-      "type", drive.type, {{"epos_ipm", DriveType::EposIpm}, {"silverlode_ims", DriveType::SilverlodeIms}});
+  drive.type = reader.choice("type", drive.type,
+                             {{"epos_ipm", DriveType::EposIpm},
+                              {"silverlode_ims", DriveType::SilverlodeIms},
+                              {"cyclic", DriveType::Cyclic}});
   drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
   drive.deviation_bound = reader.number("deviation_bound", default_bound(drive.type), 0.6, 1000.0);
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
-  if (drive.type == DriveType::EposIpm) {
+  if (drive.type != DriveType::SilverlodeIms) {
     drive.node_id = static_cast<int>(reader.required_integer("node_id", 1, 127));
-    drive.emulation = parse_emulation(reader.map("emulation"), drive);
-  } else {
-    parse_silverlode_drive(reader, drive);
+  }
+  switch (drive.type) {
+    case DriveType::EposIpm:
+      drive.emulation = parse_emulation(reader.map("emulation"), drive);
+      break;
+    case DriveType::SilverlodeIms:
+      parse_silverlode_drive(reader, drive);
+      break;
+    case DriveType::Cyclic:
+      parse_cyclic_drive(reader, drive);
+      break;
   }
   reader.refuse_unknown();
   return drive;
@@ -176,6 +197,34 @@ ConstraintConfiguration parse_constraints(ParameterReader reader, const std::vec
   return constraints;
 }
 
+bool is_on_canopen(const DriveConfiguration& drive) { return drive.type != DriveType::SilverlodeIms; }
+
+const char* name_of(DriveType type) {
+  switch (type) {
+    case DriveType::EposIpm:
+      return "epos_ipm";
+    case DriveType::SilverlodeIms:
+      return "silverlode_ims";
+    case DriveType::Cyclic:
+      break;
+  }
+  return "cyclic";
+}
+
+motion::StreamParameters parse_setpoints(ParameterReader reader) {
+  motion::StreamParameters stream;
+  const auto time = [&reader](const char* key, GoalTime& value, double low, double high) {
+    value = GoalTime{reader.number(key, value.count(), low, high)};
+  };
+  time("delay", stream.delay, 0.0, 1.0);
+  time("ride_through", stream.ride_through, 0.0, 1.0);
+  time("max_age", stream.max_age, 0.0, 10.0);
+  time("max_ahead", stream.max_ahead, 0.0, 10.0);
+  time("catch_up", stream.catch_up, 0.0, 10.0);
+  reader.refuse_unknown();
+  return stream;
+}
+
 const BusConfiguration& bus_of(const DriveConfiguration& drive, const Configuration& configuration) {
   const auto found = std::find_if(configuration.buses.begin(), configuration.buses.end(),
                                   [&drive](const BusConfiguration& bus) { return bus.name == drive.bus; });
@@ -190,10 +239,10 @@ const BusConfiguration& bus_of(const DriveConfiguration& drive, const Configurat
 
 void check_type(const DriveConfiguration& drive, const BusConfiguration& bus) {
   const bool is_can = bus.type == BusType::Canopen;
-  if (is_can == (drive.type == DriveType::EposIpm)) return;
+  if (is_can == is_on_canopen(drive)) return;
   throw std::invalid_argument(fmt::format(
       "Parameter drives/{}/bus is \"{}\", whose type is {}; a drive of type {} needs a bus of type {}.",
-      drive.joint, drive.bus, is_can ? "canopen" : "silverlode", is_can ? "silverlode_ims" : "epos_ipm",
+      drive.joint, drive.bus, is_can ? "canopen" : "silverlode", name_of(drive.type),
       is_can ? "silverlode" : "canopen"));
 }
 
@@ -205,7 +254,7 @@ void check_nodes(const Configuration& configuration) {
   }
   for (const DriveConfiguration& drive : configuration.drives) {
     check_type(drive, bus_of(drive, configuration));
-    const bool is_can = drive.type == DriveType::EposIpm;
+    const bool is_can = is_on_canopen(drive);
     const int number = is_can ? drive.node_id : drive.silverlode.address;
     const auto [owner, free] = owners.insert({{drive.bus, number}, "joint " + drive.joint});
     if (!free) {
@@ -218,13 +267,24 @@ void check_nodes(const Configuration& configuration) {
   }
 }
 
-/// What flows whether anything moves or not: per SYNC a position and a buffer report of each drive,
-/// heartbeats, a tenth of a demand report; time stamps.
-double background_load(const BusConfiguration& bus, std::size_t drives) {
-  const double per_sync = kSyncBits + static_cast<double>(drives) * 2.1 * kLongestFrameBits;
+/// Bits that flow between host and drive at each SYNC: of an EPOS a position and a buffer report, and a tenth
+/// of a demand report.
+double bits_per_sync(const DriveConfiguration& drive, const BusConfiguration& bus) {
+  return drive.type == DriveType::Cyclic ? cyclic_bits_per_sync(bus) : 2.1 * kLongestFrameBits;
+}
+
+/// What flows whether anything moves or not: PDOs at each SYNC, heartbeats, time stamps.
+double background_load(const BusConfiguration& bus, const std::vector<DriveConfiguration>& all_drives) {
+  double per_sync = kSyncBits;
+  int drives = 0;
+  for (const DriveConfiguration& drive : all_drives) {
+    if (drive.bus != bus.name) continue;
+    per_sync += bits_per_sync(drive, bus);
+    ++drives;
+  }
   const int period = bus.time_stamp_period();
   const double time_stamps = period == 0 ? 0.0 : kTimeStampBits / (period * bus.sync_period);
-  const double per_heartbeat = static_cast<double>(drives + 1) * kHeartbeatBits;
+  const double per_heartbeat = (drives + 1) * kHeartbeatBits;
   return (per_sync / bus.sync_period + time_stamps + per_heartbeat / bus.heartbeat_period) / bus.bitrate;
 }
 
@@ -243,19 +303,30 @@ void check_devices(const Configuration& configuration) {
   }
 }
 
+/// Share of a bus that SDO, EMCY and controlwords need.
+constexpr double kReserve = 0.1;
+
+bool has_records(const BusConfiguration& bus, const Configuration& configuration) {
+  return std::any_of(configuration.drives.begin(), configuration.drives.end(),
+                     [&bus](const DriveConfiguration& drive) {
+                       return drive.bus == bus.name && drive.type == DriveType::EposIpm;
+                     });
+}
+
 void check_background_load(const Configuration& configuration) {
   for (const BusConfiguration& bus : configuration.buses) {
     if (bus.type != BusType::Canopen) continue;
-    const auto drives = static_cast<std::size_t>(
+    const auto drives =
         std::count_if(configuration.drives.begin(), configuration.drives.end(),
-                      [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; }));
-    const double load = background_load(bus, drives);
-    if (load + bus.max_load <= 1.0) continue;
+                      [&bus](const DriveConfiguration& drive) { return drive.bus == bus.name; });
+    const double load = background_load(bus, configuration.drives);
+    const double reserve = has_records(bus, configuration) ? bus.max_load : kReserve;
+    if (load + reserve <= 1.0) continue;
     throw std::invalid_argument(
-        fmt::format("Bus {} cannot carry {} drives: their position reports every {} s fill {:.0f} % of {} "
-                    "bit/s, and max_load reserves {:.0f} "
-                    "% for motion records. Raise sync_period or bitrate, lower max_load, or use more buses.",
-                    bus.name, drives, bus.sync_period, 100.0 * load, bus.bitrate, 100.0 * bus.max_load));
+        fmt::format("Bus {} cannot carry {} drives: what they and the host exchange every {} s (sync_period) "
+                    "fills {:.0f} % of {} bit/s, and {:.0f} % are reserved for motion records (max_load) and "
+                    "for bring-up. Raise sync_period or bitrate, lower max_load, or use more buses.",
+                    bus.name, drives, bus.sync_period, 100.0 * load, bus.bitrate, 100.0 * reserve));
   }
 }
 
@@ -283,6 +354,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf
   drives.refuse_unknown();
   configuration.constraints = parse_constraints(reader.map("constraints"), configuration.joints);
   auto& c = configuration;
+  c.setpoints = parse_setpoints(reader.map("setpoints"));
   c.stop_trajectory_duration =
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
@@ -295,6 +367,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf
   reader.refuse_unknown();
   check_nodes(configuration);
   check_devices(configuration);
+  mark_isochronous_buses(configuration);
   check_background_load(configuration);
   return configuration;
 }

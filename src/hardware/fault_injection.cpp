@@ -37,10 +37,9 @@ bool unknown(const std::string& command, const char* known, std::string* reason)
   return false;
 }
 
-}  // namespace
-
-bool inject_drive_fault(emulation::EposDrive& drive, const std::string& text, HostTime now,
-                        std::string* reason) {
+/// What all emulated CANopen drives know.
+template <class Drive>
+bool inject_canopen_fault(Drive& drive, const std::string& text, HostTime now, std::string* reason) {
   constexpr std::uint8_t kGenericError = 0x01;
   const Command command = parse(text);
   if (command.is("emcy", 1)) {
@@ -57,6 +56,18 @@ bool inject_drive_fault(emulation::EposDrive& drive, const std::string& text, Ho
     return unknown(text, "emcy CODE, power_cycle SECONDS, stall 0|1, silence 0|1, clock PPM", reason);
   }
   return true;
+}
+
+}  // namespace
+
+bool inject_drive_fault(emulation::EposDrive& drive, const std::string& command, HostTime now,
+                        std::string* reason) {
+  return inject_canopen_fault(drive, command, now, reason);
+}
+
+bool inject_drive_fault(emulation::CyclicDrive& drive, const std::string& command, HostTime now,
+                        std::string* reason) {
+  return inject_canopen_fault(drive, command, now, reason);
 }
 
 bool inject_bus_fault(transport::VirtualCanBus& bus, const std::string& text, HostTime now,

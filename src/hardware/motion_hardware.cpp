@@ -38,6 +38,7 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
   parameters.tolerances = trajectory::default_tolerances(
       path, goal, configuration.constraints.stopped_velocity_tolerance, configuration.constraints.goal_time);
   parameters.settle_timeout = host_duration(configuration.settle_timeout);
+  parameters.stream = configuration.setpoints;
   parameters.enable_on_start = configuration.enable_on_start;
   return parameters;
 }
@@ -203,6 +204,10 @@ void MotionHardware::cancel(motion::GoalId goal, HostTime now) { implementation_
 
 std::optional<motion::GoalResult> MotionHardware::take_goal_result() {
   return implementation_->group->take_goal_result();
+}
+
+std::optional<Refusal> MotionHardware::setpoint(const motion::Setpoint& setpoint, HostTime now) {
+  return implementation_->group->setpoint(setpoint, now);
 }
 
 motion::RequestId MotionHardware::enable(bool on, HostTime now) {

@@ -30,6 +30,7 @@ Group::Group(GroupParameters parameters, std::vector<axis::Axis*> axes,
       axes_(std::move(axes)),
       signals_(std::move(signals)),
       enable_when_found_(parameters_.enable_on_start),
+      stream_(parameters_.rules, parameters_.stream),
       desired_(axes_.size()),
       actual_(axes_.size()) {
   bring_up(now);
@@ -57,6 +58,9 @@ void Group::poll(HostTime now) {
       break;
     case GroupState::Settling:
       poll_settling(now);
+      break;
+    case GroupState::Streaming:
+      poll_streaming(now);
       break;
     case GroupState::Stopping:
       poll_stopping(now);
@@ -237,7 +241,8 @@ void Group::disable(HostTime now) {
 }
 
 bool Group::in_motion() const {
-  return state_ == GroupState::Preparing || state_ == GroupState::Moving || state_ == GroupState::Settling;
+  return state_ == GroupState::Preparing || state_ == GroupState::Moving || state_ == GroupState::Settling ||
+         state_ == GroupState::Streaming;
 }
 
 bool Group::all(AxisState state) const {

@@ -18,6 +18,8 @@ const char* to_string(GroupState state) {
       return "moving";
     case GroupState::Settling:
       return "settling";
+    case GroupState::Streaming:
+      return "streaming";
     case GroupState::Stopping:
       return "stopping";
     case GroupState::Fault:
@@ -60,6 +62,7 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
   out.active_goal = active_ ? active_->id : 0;
   out.goal_time = active_ ? axes_.front()->playback(now) : GoalTime{0.0};
   out.goal_duration = active_ ? active_->plan.duration : GoalTime{0.0};
+  out.setpoints = setpoints_;
   out.joints.resize(axes_.size());
   axis::AxisStatus status;
   for (std::size_t i = 0; i < axes_.size(); ++i) {

@@ -47,9 +47,16 @@ HostTime Group::settle_deadline() const {
 
 trajectory::State Group::desired(std::size_t joint, HostTime when) const {
   const axis::Axis& axis = *axes_[joint];
+  const trajectory::Path* path = path_in_force(joint);
+  return path != nullptr ? path->sample(axis.playback(when))
+                         : without_acceleration(axis.rest_position(), 0.0);
+}
+
+/// What the drive of a joint is playing; null at rest.
+const trajectory::Path* Group::path_in_force(std::size_t joint) const {
+  if (state_ == GroupState::Streaming) return &stream_.paths()[joint];
   const bool playing = state_ == GroupState::Moving || state_ == GroupState::Settling;
-  if (!playing) return without_acceleration(axis.rest_position(), 0.0);
-  return active_->plan.paths[joint].sample(axis.playback(when));
+  return playing ? &active_->plan.paths[joint] : nullptr;
 }
 
 std::vector<trajectory::State> Group::present() const {
@@ -61,11 +68,7 @@ std::vector<trajectory::State> Group::present() const {
 bool Group::query(HostTime time, std::vector<trajectory::State>& out) const {
   if (time < in_force_since_) return false;
   out.resize(axes_.size());
-  const bool playing = state_ == GroupState::Moving || state_ == GroupState::Settling;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    out[i] = without_acceleration(axes_[i]->rest_position(), 0.0);
-    if (playing) out[i] = active_->plan.paths[i].sample(axes_[i]->playback(time));
-  }
+  for (std::size_t i = 0; i < axes_.size(); ++i) out[i] = desired(i, time);
   return true;
 }
 

@@ -70,6 +70,9 @@ void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticSta
   status.add("unexpected frames", bus.unexpected);
   status.add("error frames", bus.error_frames);
   status.add("lost frames", bus.lost_frames);
+  status.add("SYNC delay", fmt::format("{:.3f} ms", bus.sync_delay * 1e3));
+  status.add("SYNC jitter", fmt::format("{:.3f} ms", bus.sync_jitter * 1e3));
+  status.add("SYNCs skipped", bus.syncs_skipped);
 }
 
 void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status) {

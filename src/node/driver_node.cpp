@@ -34,6 +34,7 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
       hardware_(start_hardware(configuration)),
       action_(private_node(command_queue_), *hardware_, configuration.node.action_monitor_rate),
       command_(private_node(command_queue_), *hardware_, configuration.driver.joints),
+      setpoints_(private_node(command_queue_), *hardware_),
       queries_(private_node(command_queue_), *hardware_, configuration.driver.joints,
                configuration.node.emulated_samples),
       controls_(private_node(service_queue_), *hardware_),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "interpolated_motion_driver/node/clock.h"
 
@@ -70,6 +71,19 @@ trajectory::Goal to_goal(const trajectory_msgs::JointTrajectory& message) {
   for (const auto& point : message.points) goal.points.push_back(to_waypoint(point));
   if (!message.header.stamp.isZero()) goal.start = to_host_time(message.header.stamp);
   return goal;
+}
+
+motion::Setpoint to_setpoint(const trajectory_msgs::JointTrajectory& message, std::string source,
+                             HostTime arrived) {
+  const auto& point = message.points.front();
+  motion::Setpoint setpoint;
+  const HostTime stamp = message.header.stamp.isZero() ? arrived : to_host_time(message.header.stamp);
+  setpoint.time = stamp + host_duration(point.time_from_start.toSec());
+  setpoint.joint_names = message.joint_names;
+  setpoint.positions = point.positions;
+  setpoint.velocities = point.velocities;
+  setpoint.source = std::move(source);
+  return setpoint;
 }
 
 trajectory::Goal to_goal(const control_msgs::FollowJointTrajectoryGoal& message) {

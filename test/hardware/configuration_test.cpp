@@ -43,6 +43,45 @@ const BadConfiguration kBad[] = {
     {"HeartbeatTooTight", "{buses: {can0: {heartbeat_timeout: 0.1}}}", {"heartbeat_timeout", "1.5"}},
 };
 
+const BadConfiguration kBadCyclic[] = {
+    {"PeriodThatIsNoWholeMillisecond",
+     "{buses: {can0: {sync_period: 0.0025}}}",
+     {"buses/can0/sync_period", "0.0025", "joint1", "0.001..0.02"}},
+    {"PeriodTooLong", "{buses: {can0: {sync_period: 0.05}}}", {"buses/can0/sync_period", "0.05"}},
+    {"BusTooSlowForThePeriod", "{buses: {can0: {sync_period: 0.001}}}", {"can0", "sync_period", "6 drives"}},
+    {"OrderOutOfRange",
+     "{drives: {joint1: {interpolation_order: 4}}}",
+     {"drives/joint1/interpolation_order", "4", "1..3"}},
+    {"SamplesLongerThanThePeriod",
+     "{buses: {can0: {sync_period: 0.004}}, drives: {joint3: {servo_period: 0.005}}}",
+     {"drives/joint3/servo_period", "0.005", "can0"}},
+    {"OnALine",
+     "{buses: {line0: {type: silverlode}}, drives: {joint2: {bus: line0}}}",
+     {"drives/joint2/bus", "cyclic", "canopen"}},
+    {"NodeIdTwice", "{drives: {joint2: {node_id: 1}}}", {"drives/joint2/node_id", "joint1"}},
+    {"RideThroughOutOfRange",
+     "{drives: {joint1: {emulation: {ride_through: 101}}}}",
+     {"drives/joint1/emulation/ride_through", "101", "0..100"}},
+};
+
+class BadCyclicConfigurationIsRefused : public ::testing::TestWithParam<BadConfiguration> {};
+
+TEST_P(BadCyclicConfigurationIsRefused, WithParameterValueAndRange) {
+  try {
+    hardware::parse_configuration(six_axis_cyclic(GetParam().changes), six_axis_urdf());
+    FAIL() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    for (const char* part : GetParam().parts) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, BadCyclicConfigurationIsRefused, ::testing::ValuesIn(kBadCyclic),
+                         [](const ::testing::TestParamInfo<BadConfiguration>& bad) {
+                           return std::string(bad.param.name);
+                         });
+
 class BadConfigurationIsRefused : public ::testing::TestWithParam<BadConfiguration> {};
 
 TEST_P(BadConfigurationIsRefused, WithParameterValueAndRange) {

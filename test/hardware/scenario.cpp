@@ -100,6 +100,28 @@ YAML::Node six_axis_silverlode(const std::string& changes) {
   return yaml;
 }
 
+YAML::Node cyclic_drive(int node_id) {
+  return YAML::Load(
+      fmt::format("{{bus: can0, type: cyclic, node_id: {}, counts_per_revolution: 2000, gear_ratio: 100, "
+                  "limits: {{max_acceleration: 20}}}}",
+                  node_id));
+}
+
+YAML::Node six_axis_cyclic(const std::string& changes) {
+  YAML::Node yaml = arm_of(6);
+  for (int i = 1; i <= 6; ++i) yaml["drives"][fmt::format("joint{}", i)] = cyclic_drive(i);
+  if (!changes.empty()) merge(yaml, YAML::Load(changes));
+  return yaml;
+}
+
+YAML::Node six_axis_of_all_kinds(const std::string& changes) {
+  YAML::Node yaml = arm_of(6, "{buses: {line0: {type: silverlode}}}");
+  for (int i = 1; i <= 2; ++i) yaml["drives"][fmt::format("joint{}", i)] = cyclic_drive(i);
+  for (int i = 5; i <= 6; ++i) yaml["drives"][fmt::format("joint{}", i)] = silverlode_drive("line0", 12 + i);
+  if (!changes.empty()) merge(yaml, YAML::Load(changes));
+  return yaml;
+}
+
 YAML::Node six_axis_mixed(const std::string& changes) {
   YAML::Node yaml = arm_of(3, "{buses: {line0: {type: silverlode}}}");
   for (int i = 4; i <= 6; ++i) {

@@ -30,6 +30,10 @@ YAML::Node arm_of(int count, const std::string& changes = "");
 /// The same six joints with SilverLode drives as in config/six_axis_silverlode.yaml: three on line0, three on
 /// line1.
 YAML::Node six_axis_silverlode(const std::string& changes = "");
+/// The same six joints with cyclic drives as in config/six_axis_cyclic.yaml.
+YAML::Node six_axis_cyclic(const std::string& changes = "");
+/// Two joints of each kind: cyclic and EPOS drives on one CAN bus, SilverLode drives on a serial line.
+YAML::Node six_axis_of_all_kinds(const std::string& changes = "");
 /// joint1..joint3 on a CAN bus, joint4..joint6 on a serial line, as in config/six_axis_mixed.yaml.
 YAML::Node six_axis_mixed(const std::string& changes = "");
 /// URDF limits of joint1..joint6: +-3.1 rad, 3.5 rad/s.

@@ -126,6 +126,14 @@ class Axis {
   /// Loaded.
   virtual void stop(HostTime now) = 0;
 
+  /// Whether the axis can follow a path that is still being made, by follow().
+  virtual bool can_follow() const { return false; }
+  /// Sets out along `path` (Ready), or goes on along it (Moving): its goal time 0 is at host time `origin`,
+  /// and up to committed() it is as it was. At the end of the path the axis is finished.
+  virtual void follow(const trajectory::Path& /*path*/, HostTime /*origin*/, HostTime /*now*/) {}
+  /// Until when the motion can no longer be changed.
+  virtual HostTime committed() const { return HostTime::min(); }
+
   /// Goal time the drive is playing at host time `when` (before the path's start while not started).
   virtual GoalTime playback(HostTime when) const = 0;
   /// Goal time of what the drive plays when `drive_seconds` have passed on its own clock since its motion

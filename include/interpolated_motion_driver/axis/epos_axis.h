@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/controlword_link.h"
 #include "interpolated_motion_driver/axis/epos_bring_up.h"
 #include "interpolated_motion_driver/axis/epos_parameters.h"
 #include "interpolated_motion_driver/axis/epos_telemetry.h"
@@ -98,10 +99,6 @@ class EposAxis : public Axis {
     bool contains(std::size_t used) const { return used >= least && used <= most; }
   };
 
-  /// A controlword that had no effect within this time is sent again: its frame, or the SYNC behind it, can
-  /// get lost.
-  static constexpr HostDuration kRepeatCommand = std::chrono::milliseconds(100);
-
   void run_phase(HostTime now);
   void poll_probing(HostTime now);
   void poll_configuring(HostTime now);
@@ -138,8 +135,6 @@ class EposAxis : public Axis {
   void go_offline(const std::string& reason, HostTime now);
   std::string drive_fault() const;
 
-  void command(std::uint16_t controlword, HostTime now);
-  bool applied() const;
   bool walk_to(cia402::State target, HostTime now);
   bool sequence_done(HostTime now);
   SdoSequence::Step read_mode();
@@ -163,6 +158,7 @@ class EposAxis : public Axis {
   canopen::Master& master_;
   canopen::NodeLink& node_;
   SdoSequence sequence_;
+  ControlwordLink controlword_;
   EposFacts facts_;
   EposTelemetry telemetry_;
   AxisFeedback feedback_;
@@ -175,10 +171,6 @@ class EposAxis : public Axis {
   std::string fault_text_;
   std::uint16_t error_code_ = 0;
   std::string error_text_;
-
-  std::uint16_t commanded_ = 0;
-  HostTime command_time_{};
-  std::uint64_t commands_due_ = 0;  ///< confirmations of RPDO2 after which the last command is on the bus
 
   std::int32_t rest_counts_ = 0;
   RecordFeed planned_;

@@ -15,6 +15,8 @@ class CyclicObjects : public ObjectDictionary {
     preset(0x1018, 2, parameters.product_code);
     preset(0x1018, 3, parameters.revision_number);
     preset(0x1018, 4, parameters.serial_number);
+    preset(0x2100, 1, parameters.interpolation_order);
+    preset(0x2100, 2, parameters.ride_through);
   }
 };
 

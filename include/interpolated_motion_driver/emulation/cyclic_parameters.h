@@ -10,7 +10,7 @@ namespace interpolated_motion::emulation {
 
 /// Settings of an emulated cyclic servo drive.
 struct CyclicParameters {
-  std::uint8_t node_id = 1;  ///< 1..127
+  std::uint8_t node_id = 1;                                 ///< 1..127
   std::string device_name = "Emulated cyclic servo drive";  ///< 0x1008, 1..32 characters
   std::uint32_t vendor_id = 0;                              ///< 0x1018; no vendor's number is claimed
   std::uint32_t product_code = 0x43535038;                  ///< "CSP8"
@@ -21,12 +21,15 @@ struct CyclicParameters {
   HostDuration servo_period =
       std::chrono::milliseconds(1);  ///< nominal, 100 us .. 10 ms: fine interpolation and plant
   HostDuration tick_phase{};         ///< of the first sample after boot, 0 .. servo_period
-  HostDuration boot_time = std::chrono::milliseconds(200);        ///< 1 ms or more
+  HostDuration boot_time = std::chrono::milliseconds(200);          ///< 1 ms or more
   HostDuration sdo_response_time = std::chrono::microseconds(500);  ///< 0 or more
 
   /// Share of a SYNC's deviation from the expected time by which the drive shifts its own grid of updates,
   /// above 0 .. 1; 1: no filter.
   double sync_gain = 0.125;
+
+  int interpolation_order = 3;  ///< 0x2100:1 after boot, 1..3
+  int ride_through = 3;         ///< 0x2100:2 after boot, updates, 0..100
 
   PlantParameters plant;
   std::int32_t initial_position = 0;  ///< counts

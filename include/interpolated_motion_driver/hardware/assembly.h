@@ -56,10 +56,13 @@ class Assembly {
   void add_serial_port(const BusConfiguration& bus);
   void add_link(std::unique_ptr<CanLink> link);
   void add_link(std::unique_ptr<SerialLink> link);
+  void add_drive(const Configuration& configuration, const DriveConfiguration& drive);
   void add_epos(const Configuration& configuration, const DriveConfiguration& drive);
   void add_silverlode(const Configuration& configuration, const DriveConfiguration& drive);
+  void add_cyclic(const Configuration& configuration, const DriveConfiguration& drive);
   void emulate_epos(const DriveConfiguration& drive, std::size_t index);
   void emulate_silverlode(const DriveConfiguration& drive, std::size_t index);
+  void emulate_cyclic(const DriveConfiguration& drive, std::size_t index);
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;

@@ -8,10 +8,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include "interpolated_motion_driver/axis/segment_registers.h"
+#include "interpolated_motion_driver/emulation/cyclic_parameters.h"
 #include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust_parameters.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/interpolation/ims_profile.h"
+#include "interpolated_motion_driver/motion/setpoint.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_parameters.h"
 #include "interpolated_motion_driver/protocol/silverlode/registers.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
@@ -67,6 +69,9 @@ struct BusConfiguration {
   double sdo_timeout = 0.2;           ///< s
   bool clock_discipline = true;       ///< the drives set their clocks by the host's (EPOS2: SYNC and 0x1013)
 
+  /// There are cyclic drives on the bus: SYNC is their time base. Follows from the drives, is no parameter.
+  bool isochronous = false;
+
   /// Every so many SYNCs are followed by a time stamp: as often as possible, yet not more often than each
   /// 10 ms, in which a drive 100 ppm off gets away by 1 us; 0: never.
   int time_stamp_period() const;
@@ -79,7 +84,7 @@ struct EmulationConfiguration {
 };
 
 /// Which interpolator of which drive plays the motion.
-enum class DriveType { EposIpm, SilverlodeIms };
+enum class DriveType { EposIpm, SilverlodeIms, Cyclic };
 
 /// What only SilverLode drives have.
 struct SilverlodeConfiguration {
@@ -93,13 +98,23 @@ struct SilverlodeConfiguration {
   emulation::SilverDustParameters emulated;
 };
 
+/// What only drives in the cyclic synchronous position mode have.
+struct CyclicConfiguration {
+  int interpolation_order = 3;     ///< of the drive's fine interpolation, 1..3
+  double servo_period = 1e-3;      ///< s, between the samples of the fine interpolation
+  double velocity_unit = 1.0;      ///< counts/s in one unit of 0x606C
+  double acceleration_unit = 1.0;  ///< counts/s^2 in one unit of 0x6084 and 0x6085
+  emulation::CyclicParameters emulated;
+};
+
 /// A joint's drive. What only one type of drive knows is without meaning for the others.
 struct DriveConfiguration {
   std::string joint;
   std::string bus;
   DriveType type = DriveType::EposIpm;
-  int node_id = 0;  ///< 1..127, of EPOS drives
+  int node_id = 0;  ///< 1..127, on CANopen
   SilverlodeConfiguration silverlode;
+  CyclicConfiguration cyclic;
   encoding::Transmission transmission;
   trajectory::JointLimits limits;    ///< URDF limits, tightened by the configuration
   double deviation_bound = 1.0;      ///< counts, worst deviation from the path at any drive sample
@@ -131,6 +146,7 @@ struct Configuration {
   double bring_up_timeout = 5.0;  ///< s for all drives to answer and be configured
   double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;
+  motion::StreamParameters setpoints;
 };
 
 /// Reads the driver's part of the node's parameters (`joints`, `buses`, `drives`, `constraints`, ...).

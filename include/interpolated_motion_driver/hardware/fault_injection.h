@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "interpolated_motion_driver/emulation/cyclic_drive.h"
 #include "interpolated_motion_driver/emulation/epos_drive.h"
 #include "interpolated_motion_driver/emulation/silverdust.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
@@ -14,6 +15,9 @@ namespace interpolated_motion::hardware {
 /// blocked), `silence 0|1` (neither hears nor says anything), `clock PPM` (crystal error). False with a
 /// reason for anything else.
 bool inject_drive_fault(emulation::EposDrive& drive, const std::string& command, HostTime now,
+                        std::string* reason);
+
+bool inject_drive_fault(emulation::CyclicDrive& drive, const std::string& command, HostTime now,
                         std::string* reason);
 
 /// Commands: `drop COUNT` (the next COUNT frames reach nobody), `drop_id ID COUNT` (the next COUNT frames

@@ -63,6 +63,10 @@ class MotionHardware {
   /// The next goal that has ended, oldest first.
   std::optional<motion::GoalResult> take_goal_result();
 
+  /// Takes a setpoint of a stream, or says why not: the arm follows the stream a fixed delay behind it, and
+  /// comes to rest within its limits when the stream ends. A goal replaces a stream as it replaces a goal.
+  std::optional<Refusal> setpoint(const motion::Setpoint& setpoint, HostTime now);
+
   /// Requests take time; each ends with one RequestResult.
   motion::RequestId enable(bool on, HostTime now);
   motion::RequestId reset_faults(HostTime now);

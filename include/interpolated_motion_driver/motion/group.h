@@ -10,6 +10,8 @@
 #include "interpolated_motion_driver/motion/active_goal.h"
 #include "interpolated_motion_driver/motion/requests.h"
 #include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/setpoint.h"
+#include "interpolated_motion_driver/motion/setpoint_path.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/trajectory/goal_rules.h"
@@ -24,6 +26,7 @@ struct GroupParameters {
   HostDuration settle_timeout =
       std::chrono::milliseconds(500);  ///< used where a goal allows no time for settling
   bool enable_on_start = true;
+  StreamParameters stream;
 };
 
 /// A group of axes that move together, on any mix of buses and kinds of drives. A goal goes through: checked
@@ -50,6 +53,8 @@ class Group {
   void cancel(GoalId goal, HostTime now);
   std::optional<GoalResult> take_goal_result();
 
+  std::optional<Refusal> setpoint(const Setpoint& setpoint, HostTime now);
+
   RequestId request(RequestKind kind, HostTime now);
   std::optional<RequestResult> take_request_result() { return requests_.take_result(); }
 
@@ -66,6 +71,7 @@ class Group {
   void poll_preparing(HostTime now);
   void poll_moving(HostTime now);
   void poll_settling(HostTime now);
+  void poll_streaming(HostTime now);
   void poll_stopping(HostTime now);
   void watch_for_faults();
 
@@ -94,6 +100,9 @@ class Group {
   void set_common_begin(HostTime now);
   GoalTime longest_lead() const;
   GoalTime wait_after_signal() const;
+  std::optional<Refusal> take_setpoint(const Setpoint& setpoint, HostTime now);
+  std::optional<Refusal> refuse_to_follow() const;
+  const trajectory::Path* path_in_force(std::size_t joint) const;
   void finish_goal(const Ending& ending);
   void finish_stop_goals();
   void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);
@@ -127,6 +136,8 @@ class Group {
   std::optional<ActiveGoal> last_;
   std::optional<PendingGoal> pending_;
   std::optional<Ending> ending_;
+  SetpointPath stream_;
+  StreamCounters setpoints_;
   std::vector<GoalId> stop_goals_;
   std::deque<GoalResult> results_;
   Requests requests_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/setpoint.h"
 #include "interpolated_motion_driver/trajectory/polynomial.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -52,6 +53,9 @@ struct BusSnapshot {
   std::string state;               ///< of interface or port, in one sentence with what to do
   std::uint64_t error_frames = 0;  ///< reports of the CAN controller about a disturbed bus
   std::uint64_t lost_frames = 0;   ///< frames the kernel had no room for, and frames never seen on the bus
+  double sync_delay = 0.0;          ///< s, from the instant periodic SYNC is due to its end on the bus, mean
+  double sync_jitter = 0.0;         ///< s, largest deviation from that in the last seconds
+  std::uint64_t syncs_skipped = 0;  ///< not sent, since the host was too late
 };
 
 enum class GroupState {
@@ -61,7 +65,8 @@ enum class GroupState {
   Idle,       ///< enabled, at rest, ready for a goal
   Preparing,  ///< a goal is being loaded into the drives
   Moving,
-  Settling,  ///< the records are played; waiting for the joints to be within their goal tolerances
+  Settling,   ///< the records are played; waiting for the joints to be within their goal tolerances
+  Streaming,  ///< follows setpoints
   Stopping,
   Fault,  ///< a drive is in fault or lost; ~reset_faults, then ~enable
 };
@@ -76,6 +81,7 @@ struct Snapshot {
   GoalId active_goal = 0;   ///< 0 when none
   GoalTime goal_time{0.0};  ///< of the active goal, on the play-back clock; time_from_start of `desired`
   GoalTime goal_duration{0.0};
+  StreamCounters setpoints;
   std::vector<JointSnapshot> joints;
   std::vector<BusSnapshot> buses;
 };

@@ -19,6 +19,7 @@
 #include "interpolated_motion_driver/node/hardware_thread.h"
 #include "interpolated_motion_driver/node/load_configuration.h"
 #include "interpolated_motion_driver/node/query_services.h"
+#include "interpolated_motion_driver/node/setpoint_topic.h"
 #include "interpolated_motion_driver/node/state_publisher.h"
 #include "interpolated_motion_driver/node/status_publisher.h"
 #include "interpolated_motion_driver/node/wire_log.h"
@@ -58,6 +59,7 @@ class DriverNode {
 
   TrajectoryActionServer action_;
   CommandTopic command_;
+  SetpointTopic setpoints_;
   QueryServices queries_;
   ControlServices controls_;
   std::unique_ptr<FaultInjection> faults_;

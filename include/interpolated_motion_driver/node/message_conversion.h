@@ -12,6 +12,7 @@
 #include <interpolated_motion_driver/GetMotionReport.h>
 
 #include "interpolated_motion_driver/motion/results.h"
+#include "interpolated_motion_driver/motion/setpoint.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 
@@ -20,6 +21,9 @@ namespace interpolated_motion::node {
 /// A trajectory of the command topic. A stamp of 0 means as soon as possible, any other is taken over to the
 /// host clock.
 trajectory::Goal to_goal(const trajectory_msgs::JointTrajectory& message);
+/// A message of one point as a setpoint of `source`, which has arrived at `arrived`.
+motion::Setpoint to_setpoint(const trajectory_msgs::JointTrajectory& message, std::string source,
+                             HostTime arrived);
 /// A goal of the action, with its tolerances.
 trajectory::Goal to_goal(const control_msgs::FollowJointTrajectoryGoal& message);
 

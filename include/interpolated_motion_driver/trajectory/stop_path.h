@@ -15,4 +15,9 @@ namespace interpolated_motion::trajectory {
 /// pieces. Throws std::invalid_argument if `max_acceleration` is not positive.
 Path stop_path(const State& from, GoalTime start, const JointLimits& limits);
 
+/// As stop_path, but the shortest: constant deceleration, with a step in acceleration at both ends. Takes
+/// |v| / max_acceleration and half of that times v in distance. A path within its limits of position and
+/// acceleration can be left so at any point without leaving the limits of position.
+Path shortest_stop_path(const State& from, GoalTime start, const JointLimits& limits);
+
 }  // namespace interpolated_motion::trajectory

@@ -29,6 +29,9 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   check_period(bus, "heartbeat_period", p.heartbeat_period);
   check_period(bus, "heartbeat_timeout", p.heartbeat_timeout);
   check_period(bus, "sync_period", p.sync_period);
+  if (p.isochronous && p.sync_period == HostDuration::zero()) {
+    throw std::invalid_argument(fmt::format("{}: sync_period = 0 s, an isochronous bus needs one", bus));
+  }
   check_range(bus, "time_stamp_period", p.time_stamp_period, 0, 1000);
   check_range<std::uint32_t>(bus, "bitrate", p.bitrate, 10'000, 1'000'000);
   check_range(bus, "max_bulk_load", p.max_bulk_load, 0.01, 1.0);
@@ -73,11 +76,24 @@ void Master::advance(HostTime now) { now_ = std::max(now_, now); }
 void Master::poll(HostTime now) {
   advance(now);
   poll_nodes(now);
-  if (sync_.poll(now) && !periodic_sync_queued_) {
-    periodic_sync_queued_ = queue_control(sync_frame(), Kind::PeriodicSync);
-  }
+  if (sync_.poll(now)) queue_periodic_sync();
   const auto heartbeat = heartbeat_.poll(now);
   if (heartbeat && !heartbeat_queued_) heartbeat_queued_ = queue_control(*heartbeat, Kind::Heartbeat);
+}
+
+void Master::queue_periodic_sync() {
+  if (parameters_.isochronous && sync_.missed() > 0) return sync_timing_.skip(sync_.missed() + 1);
+  if (periodic_sync_queued_) return;
+  collect_sdo();
+  periodic_sync_queued_ = push_control({sync_frame(), Kind::PeriodicSync, 0, sync_.last_due()});
+}
+
+void Master::drop_late_sync(HostTime now) {
+  if (!parameters_.isochronous || control_.empty()) return;
+  const ControlFrame& next = control_.front();
+  if (next.kind != Kind::PeriodicSync || now - next.due <= parameters_.sync_period / 2) return;
+  release_control();
+  sync_timing_.skip(1);
 }
 
 void Master::poll_nodes(HostTime now) {
@@ -107,12 +123,12 @@ bool Master::send_nmt(NmtCommand command, std::uint8_t node) {
 
 bool Master::request_sync(HostTime now) {
   advance(now);
-  return queue_control(sync_frame(), Kind::RequestedSync);
+  return parameters_.isochronous || queue_control(sync_frame(), Kind::RequestedSync);
 }
 
 bool Master::queue_control(const Frame& frame, Kind kind, std::uint8_t node) {
   collect_sdo();
-  return push_control({frame, kind, node});
+  return push_control({frame, kind, node, HostTime{}});
 }
 
 bool Master::push_control(const ControlFrame& frame) {
@@ -126,7 +142,7 @@ bool Master::push_control(const ControlFrame& frame) {
 void Master::collect_sdo() {
   for (NodeLink* node : in_order_) {
     if (node->sdo_frame_queued_ || !node->sdo_.has_frame() || control_.full()) continue;
-    node->sdo_frame_queued_ = push_control({*node->sdo_.next_frame(now_), Kind::Sdo, node->id_});
+    node->sdo_frame_queued_ = push_control({*node->sdo_.next_frame(now_), Kind::Sdo, node->id_, HostTime{}});
   }
 }
 
@@ -138,6 +154,7 @@ const Frame* Master::peek_outgoing(HostTime now) {
     peeked_ = Peeked::TimeStamp;
     return &*time_stamp_;
   }
+  drop_late_sync(now);
   if (!control_.empty()) {
     peeked_ = Peeked::Control;
     return &control_.front().frame;
@@ -156,7 +173,10 @@ void Master::pop_outgoing(HostTime now) {
   }
   if (peeked_ == Peeked::Control) {
     const Kind kind = control_.front().kind;
-    if (kind == Kind::PeriodicSync || kind == Kind::RequestedSync) ++syncs_since_confirmation_;
+    if (kind == Kind::PeriodicSync || kind == Kind::RequestedSync) {
+      ++syncs_since_confirmation_;
+      timed_sync_ = kind == Kind::PeriodicSync ? control_.front().due : kNever;
+    }
     release_control();
   }
   if (peeked_ == Peeked::Bulk) {

@@ -54,6 +54,7 @@ void Master::on_own_frame(const ReceivedFrame& received) {
 void Master::confirm_sync(HostTime time) {
   last_sync_time_ = time;
   ++syncs_confirmed_;
+  if (timed_sync_ != kNever) sync_timing_.confirm(std::exchange(timed_sync_, kNever), time);
   const bool is_last = std::exchange(syncs_since_confirmation_, 0) == 1;
   time_stamp_.reset();
   const int period = parameters_.time_stamp_period;

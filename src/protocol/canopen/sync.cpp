@@ -31,7 +31,9 @@ bool SyncProducer::poll(HostTime now) {
     return false;
   }
   if (now < next_) return false;
-  next_ += period_ * ((now - next_) / period_ + 1);
+  const HostDuration::rep missed = (now - next_) / period_;
+  missed_ = static_cast<std::uint64_t>(missed);
+  next_ += period_ * (missed + 1);
   return true;
 }
 

@@ -16,6 +16,7 @@
 #include "interpolated_motion_driver/protocol/canopen/pacer.h"
 #include "interpolated_motion_driver/protocol/canopen/ring.h"
 #include "interpolated_motion_driver/protocol/canopen/sync.h"
+#include "interpolated_motion_driver/protocol/canopen/sync_timing.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::canopen {
@@ -25,6 +26,7 @@ struct MasterParameters {
   HostDuration heartbeat_period = HostDuration::zero();   ///< of this host; zero: none is sent
   HostDuration heartbeat_timeout = HostDuration::zero();  ///< of the nodes; zero: not monitored
   HostDuration sync_period = HostDuration::zero();        ///< zero: SYNC on request only
+  bool isochronous = false;   ///< SYNC is the time base of drives, see below; needs a sync_period
   int time_stamp_period = 0;  ///< every so many SYNCs are followed by their time stamp, 0..1000; 0: none
   std::uint32_t bitrate = 1'000'000;   ///< bit/s, 10000..1000000
   double max_bulk_load = 0.6;          ///< share of the bus for bulk frames, 0.01..1
@@ -60,6 +62,10 @@ struct UnexpectedFrames {
 /// With `time_stamp_period` the drives are told when SYNC was on the bus, so that they can set their clocks
 /// by it (object 0x1013). A time stamp goes before everything else that waits, since a drive takes it for
 /// that of the last SYNC; it is left out when the next SYNC is under way already.
+///
+/// An `isochronous` bus has drives that take one setpoint per SYNC and interpolate between two of them. A
+/// SYNC off its grid would make them take a setpoint at a wrong instant: there is none on request (the next
+/// periodic one serves), and one that is late by more than half a period is left out.
 ///
 /// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
 /// made. Bulk frames
@@ -102,8 +108,8 @@ class Master {
 
   /// NMT command to one node or to `kAllNodes`. False when the control queue is full.
   bool send_nmt(NmtCommand command, std::uint8_t node);
-  /// One SYNC, behind every control frame queued so far (SDO requests started so far included). False when
-  /// the control queue is full.
+  /// One SYNC, behind every control frame queued so far (SDO requests started so far included); on an
+  /// isochronous bus the next periodic one. False when the control queue is full.
   bool request_sync(HostTime now);
 
   /// Drops everything that waits to be sent, control and bulk frames. For a bus that was down: a controlword
@@ -113,6 +119,9 @@ class Master {
   /// End of this host's last SYNC on the bus (the epoch before the first), and how many there were.
   HostTime last_sync_time() const { return last_sync_time_; }
   std::uint64_t syncs_confirmed() const { return syncs_confirmed_; }
+  /// When the next periodic SYNC is due; `kNever` when there are none, and before the first `poll`.
+  HostTime next_sync_due() const { return sync_.next_deadline(); }
+  const SyncTiming& sync_timing() const { return sync_timing_; }
 
   /// Time stamps given to the transport.
   std::uint64_t time_stamps_sent() const { return time_stamps_; }
@@ -139,6 +148,7 @@ class Master {
     Frame frame;
     Kind kind = Kind::Other;
     std::uint8_t node = 0;
+    HostTime due{};  ///< of a periodic SYNC
   };
   enum class Peeked : std::uint8_t { None, TimeStamp, Control, Bulk };
 
@@ -148,6 +158,8 @@ class Master {
   void advance(HostTime now);
   NodeLink* next_bulk_node();
   void release_control();
+  void queue_periodic_sync();
+  void drop_late_sync(HostTime now);
   void confirm_sync(HostTime time);
 
   void on_own_frame(const ReceivedFrame& received);
@@ -173,6 +185,8 @@ class Master {
 
   HeartbeatProducer heartbeat_;
   SyncProducer sync_;
+  SyncTiming sync_timing_;
+  HostTime timed_sync_ = kNever;  ///< when the periodic SYNC that is on its way was due; kNever: none is
   HostTime last_sync_time_{};
   std::uint64_t syncs_confirmed_ = 0;
   int syncs_since_confirmation_ = 0;  ///< given to the transport since the last confirmation of one

@@ -24,9 +24,15 @@ class SyncProducer {
   /// When the next periodic SYNC is due; `kNever` when off or before the first call of `poll`.
   HostTime next_deadline() const { return next_; }
 
+  /// Instant of the grid for which `poll` returned true last.
+  HostTime last_due() const { return next_ - period_; }
+  /// Periods that `poll` skipped then.
+  std::uint64_t missed() const { return missed_; }
+
  private:
   HostDuration period_;
   HostTime next_ = kNever;
+  std::uint64_t missed_ = 0;
 };
 
 /// `time` as a high resolution time stamp carries it: us of the host's clock, modulo 2^32 (CiA 301, object

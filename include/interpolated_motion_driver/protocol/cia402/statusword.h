@@ -40,6 +40,7 @@ struct Statusword {
   bool target_reached() const { return bit(10); }  ///< with halt: velocity is 0
   bool internal_limit() const { return bit(11); }
   bool ip_mode_active() const { return bit(12); }   ///< in mode 7: the drive plays its FIFO
+  bool follows_command() const { return bit(12); }  ///< in mode 8: the drive follows its target positions
   bool following_error() const { return bit(13); }  ///< in the profile modes; reserved in mode 7
   bool power_stage_refresh() const { return bit(14); }
   bool homed() const { return bit(15); }

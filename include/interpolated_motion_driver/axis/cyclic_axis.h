@@ -1,0 +1,158 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/controlword_link.h"
+#include "interpolated_motion_driver/axis/cyclic_parameters.h"
+#include "interpolated_motion_driver/axis/cyclic_telemetry.h"
+#include "interpolated_motion_driver/axis/sdo_sequence.h"
+#include "interpolated_motion_driver/axis/setpoint_stream.h"
+#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
+#include "interpolated_motion_driver/protocol/canopen/master.h"
+#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+
+namespace interpolated_motion::axis {
+
+/// A CiA 402 drive in the cyclic synchronous position mode (mode 8) on an isochronous CANopen bus.
+///
+/// From the moment it is enabled the drive gets one target position per SYNC, at rest as well, and
+/// interpolates between them by itself. A goal's way: plan() executes its target positions as the drive will
+/// and holds them against the path; load() has nothing to load; from arm() on the target positions are those
+/// of the path. stop() leaves the path for one to rest within the joint's limits. When target positions fail
+/// to come the drive goes on along its polynomial for a few periods and then faults: a host that stalls or
+/// dies stops the drive so.
+class CyclicAxis : public Axis {
+ public:
+  /// `master`, which must be isochronous with the same period, and `node` must outlive the axis. Throws
+  /// std::invalid_argument, naming joint, parameter, value and range.
+  CyclicAxis(CyclicAxisParameters parameters, canopen::Master& master, canopen::NodeLink& node);
+
+  const std::string& joint() const override { return parameters_.joint; }
+  const std::string& bus() const override { return master_.bus_name(); }
+  std::string description() const override;
+  AxisState state() const override;
+  const std::string& fault_text() const override { return fault_text_; }
+
+  void poll(HostTime now) override;
+  HostTime next_deadline() const override;
+
+  void bring_up(HostTime now) override;
+  void enable(HostTime now) override;
+  void disable(HostTime now) override;
+  void reset_fault(HostTime now) override;
+
+  double rest_position() const override;
+  GoalTime start_lead() const override;
+  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  /// None: target positions go to the bus at rest as well, so no goal adds to what the bus carries.
+  std::vector<RecordSlot> record_slots() const override { return {}; }
+  double record_bus_time() const override { return parameters_.record_bus_time; }
+  void load(HostTime now) override;
+  void arm(HostTime begin, HostTime now) override;
+  HostTime path_begin() const override;
+  void stop(HostTime now) override;
+
+  bool can_follow() const override { return true; }
+  void follow(const trajectory::Path& path, HostTime origin, HostTime now) override;
+  HostTime committed() const override { return setpoints_.newest(); }
+
+  GoalTime playback(HostTime when) const override;
+  /// The drive follows SYNC, so its clock is the host's.
+  GoalTime goal_time_at(double drive_seconds) const override {
+    return path_.start_time() + GoalTime{drive_seconds};
+  }
+  bool finished() const override { return finished_; }
+  const AxisFeedback& feedback() const override { return feedback_; }
+  void status(HostTime now, AxisStatus& out) const override;
+  AxisReport report() const override;
+
+ private:
+  enum class Phase {
+    Offline,
+    Probing,  ///< waits for the first answer
+    Configuring,
+    StartingNode,  ///< waits for the first statusword
+    Disabled,
+    SelectingMode,
+    Enabling,
+    Ready,
+    Loading,
+    Loaded,
+    Moving,
+    Braking,
+    Disabling,
+    Resetting,
+    Fault,
+  };
+
+  void run_phase(HostTime now);
+  void poll_probing(HostTime now);
+  void poll_configuring(HostTime now);
+  void poll_starting_node(HostTime now);
+  void poll_selecting_mode(HostTime now);
+  void poll_enabling(HostTime now);
+  void poll_moving(HostTime now);
+  void poll_braking(HostTime now);
+  void poll_disabling(HostTime now);
+  void poll_resetting(HostTime now);
+
+  void on_tpdo(int number, const canopen::Frame& frame, HostTime time);
+  void collect_emergencies();
+  void watch_heartbeat(HostTime now);
+  void watch_power_stage(HostTime now);
+
+  bool wants_targets() const;
+  void send_target();
+  void set_out(const trajectory::Path& path, HostTime begin);
+  void come_to_rest(HostTime now);
+
+  void probe(HostTime now);
+  SdoSequence::Step read_mode();
+  bool sequence_done(HostTime now);
+  bool walk_to(cia402::State target, HostTime now);
+  bool must_be_enabled() const;
+  bool is_motion_phase() const { return phase_ == Phase::Moving || phase_ == Phase::Braking; }
+  void enter(Phase phase, HostTime now);
+  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
+  std::string who() const;
+  std::string drive_fault() const;
+  void fail(const std::string& reason, HostTime now);
+  void go_offline(const std::string& reason, HostTime now);
+  encoding::SetpointEncoding encoding() const;
+  double sync_delay() const { return master_.sync_timing().delay(); }
+
+  CyclicAxisParameters parameters_;
+  canopen::Master& master_;
+  canopen::NodeLink& node_;
+  SdoSequence sequence_;
+  ControlwordLink controlword_;
+  SetpointStream setpoints_;
+  cia402::Identity identity_;
+  CyclicTelemetry telemetry_;
+  AxisFeedback feedback_;
+
+  Phase phase_ = Phase::Offline;
+  HostTime phase_since_{};
+  HostTime polled_{};
+  HostTime bring_up_since_{};
+  bool configured_ = false;
+  std::string fault_text_;
+  std::uint16_t error_code_ = 0;
+  std::string error_text_;
+
+  std::int32_t rest_counts_ = 0;
+  trajectory::Path planned_;
+  trajectory::Path path_;
+  HostTime begin_ = kNever;
+  bool finished_ = false;
+
+  std::uint64_t sent_ = 0;
+  std::uint64_t sent_at_load_ = 0;
+  std::uint64_t missed_at_load_ = 0;
+  std::uint64_t refused_ = 0;  ///< target positions that the queue of the bus did not take
+};
+
+}  // namespace interpolated_motion::axis

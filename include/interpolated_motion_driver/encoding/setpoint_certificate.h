@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::encoding {
+
+/// How a path goes to a drive in the cyclic synchronous position mode (CiA 402, mode 8): as target positions
+/// in whole counts, one per `period`, between which the drive interpolates to its servo rate ("Behavior
+/// models used in CIP Motion", Fine Command Interpolation).
+struct SetpointEncoding {
+  std::string joint;
+  Transmission transmission;
+  GoalTime period{0.010};       ///< between target positions, > 0
+  int order = 3;                ///< of the drive's fine interpolation, 1..3
+  GoalTime servo_period{1e-3};  ///< between the drive's samples, 0 < servo_period <= period
+  double bound_counts = 5.0;    ///< largest deviation from the path at any sample of the drive
+};
+
+/// What the drive will make of a path.
+struct SetpointCertificate {
+  double worst_deviation = 0.0;  ///< counts, at the drive's samples
+  GoalTime worst_time{0.0};
+};
+
+/// The target position, counts, for goal time `time`.
+std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& transmission, GoalTime time);
+
+/// Executes the target positions of `path` as the drive will, from a rest of several periods before the path
+/// to one behind it, and compares each sample of the drive with the path. Where the instants of the target
+/// positions fall within the path is known only when it starts, so `kSetpointPhases` positions of them are
+/// tried, evenly spread over the period. Refused: a deviation above the bound, with what to do; a position
+/// beyond 32 bits; values that are not finite. `encoding` out of its ranges throws std::invalid_argument.
+Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
+                                                         const SetpointEncoding& encoding);
+
+inline constexpr int kSetpointPhases = 4;
+
+}  // namespace interpolated_motion::encoding

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/limits_check.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::trajectory {
+
+/// How one joint follows a stream of setpoints.
+struct StreamRules {
+  JointLimits limits;           ///< velocity and acceleration must be finite
+  GoalTime ride_through{0.06};  ///< goes on at the velocity of the newest setpoint for so long, then brakes
+  GoalTime catch_up{0.5};       ///< longest it may be behind the stream after late or lost setpoints
+};
+
+/// A setpoint of one joint: `position` is passed at `time` with `velocity`.
+struct StreamTarget {
+  GoalTime time{0.0};
+  double position = 0.0;
+  double velocity = 0.0;
+};
+
+/// The path from `from` at `start` through a setpoint, to go on with while no further one comes:
+/// - a cubic to the setpoint, in position and velocity. If the limits do not allow that in time, it meets the
+///   stream later, where it will be at the setpoint's velocity: by the shortest delay that the search finds,
+///   at most `catch_up`;
+/// - straight on for `ride_through`, then a smooth stop; the limits of position may shorten either.
+///
+/// So there is always a stop behind the newest setpoint, and a fresh one leaves the path at any point without
+/// a step in position or velocity. `target.time` may lie before `start`. The limit that fails with the
+/// longest delay is returned when there is no such path.
+Expected<Path, LimitViolation> stream_path(const State& from, GoalTime start, const StreamTarget& target,
+                                           const StreamRules& rules);
+
+/// The pieces of `path` from those at `begin` on, cut off at `end`, and `rest` behind, which must start there
+/// where the path has not ended before.
+Path splice(const Path& path, GoalTime begin, GoalTime end, const Path& rest);
+
+}  // namespace interpolated_motion::trajectory

@@ -1,0 +1,134 @@
+#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/encoding/record_range.h"
+#include "interpolated_motion_driver/interpolation/cip_polynomial.h"
+
+namespace interpolated_motion::encoding {
+
+namespace {
+
+using interpolation::CipPolynomial;
+using interpolation::CipValues;
+using interpolation::kCipHighestOrder;
+using interpolation::kCipHistory;
+
+template <class Value>
+void require(bool valid, const SetpointEncoding& encoding, const char* name, const Value& value,
+             const char* range) {
+  if (valid) return;
+  throw std::invalid_argument(
+      fmt::format("setpoints of joint {}: {} is {}, allowed is {}", encoding.joint, name, value, range));
+}
+
+void validate(const SetpointEncoding& e) {
+  require(e.period.count() > 0.0, e, "period", e.period.count(), "above 0 s");
+  require(e.order >= 1 && e.order <= kCipHighestOrder, e, "order", e.order, "1..3");
+  require(e.servo_period.count() > 0.0 && e.servo_period <= e.period, e, "servo_period",
+          e.servo_period.count(), "above 0 s to period");
+  require(e.bound_counts > 0.0, e, "bound_counts", e.bound_counts, "above 0");
+}
+
+/// A path read at times that only grow.
+class PathSweep {
+ public:
+  explicit PathSweep(const trajectory::Path& path) : path_(path) {}
+
+  double position(GoalTime time) {
+    if (path_.empty() || time < path_.start_time() || time > path_.end_time())
+      return path_.sample(time).position;
+    piece_ = path_.piece_index(time, piece_);
+    const trajectory::Piece& piece = path_.pieces()[piece_];
+    return piece.polynomial.position((time - piece.start).count());
+  }
+
+ private:
+  const trajectory::Path& path_;
+  std::size_t piece_ = 0;
+};
+
+/// The drive's motion from the setpoints of a path, the first of them at `first`.
+class Execution {
+ public:
+  Execution(const trajectory::Path& path, const SetpointEncoding& encoding, GoalTime first)
+      : encoding_(encoding), setpoints_(path), samples_(path), next_(first) {}
+
+  /// The drive's samples from one setpoint to the next. False when a setpoint fits no target position.
+  bool advance(SetpointCertificate& worst) {
+    std::copy_backward(values_.begin(), values_.end() - 1, values_.end());
+    const double counts = encoding_.transmission.counts(setpoints_.position(next_));
+    if (!fits_record_position(counts)) return false;
+    values_[0] = std::round(counts);
+    if (++known_ >= kCipHistory) compare(next_ - encoding_.period, worst);
+    next_ += encoding_.period;
+    return true;
+  }
+
+  GoalTime next() const { return next_; }
+
+ private:
+  void compare(GoalTime t0, SetpointCertificate& worst) {
+    const CipPolynomial demand =
+        interpolation::cip_position_polynomial(encoding_.order, encoding_.period.count(), values_);
+    for (GoalTime tau{0.0}; tau < encoding_.period; tau += encoding_.servo_period) {
+      const double wanted = encoding_.transmission.counts(samples_.position(t0 + tau));
+      const double deviation = std::abs(demand.value(tau.count()) - wanted);
+      if (deviation <= worst.worst_deviation) continue;
+      worst = {deviation, t0 + tau};
+    }
+  }
+
+  const SetpointEncoding& encoding_;
+  PathSweep setpoints_;
+  PathSweep samples_;
+  GoalTime next_;
+  CipValues values_{};  // the newest first
+  std::size_t known_ = 0;
+};
+
+Refusal beyond_range(const SetpointEncoding& encoding, GoalTime time) {
+  return {GoalError::InvalidGoal,
+          fmt::format("Joint '{}', at {:.3f} s: the position is no target position of 32 bits (0x607A). "
+                      "Check counts_per_revolution, gear_ratio and offset.",
+                      encoding.joint, time.count())};
+}
+
+Refusal beyond_bound(const SetpointEncoding& encoding, const SetpointCertificate& found) {
+  return {GoalError::InvalidGoal,
+          fmt::format("Joint '{}', at {:.3f} s: with a target position each {:.0f} ms the drive would be "
+                      "{:.2f} counts off the path, more than deviation_bound allows ({}). Use a shorter "
+                      "sync_period, smoother or slower points, or a larger bound.",
+                      encoding.joint, found.worst_time.count(), encoding.period.count() * 1e3,
+                      found.worst_deviation, encoding.bound_counts)};
+}
+
+}  // namespace
+
+std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& transmission, GoalTime time) {
+  const double counts = std::round(transmission.counts(path.sample(time).position));
+  return static_cast<std::int32_t>(std::clamp<double>(counts, kMinRecordPosition, kMaxRecordPosition));
+}
+
+Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
+                                                         const SetpointEncoding& encoding) {
+  validate(encoding);
+  const GoalTime history = kCipHistory * encoding.period;
+  SetpointCertificate worst;
+  for (int phase = 0; phase < kSetpointPhases; ++phase) {
+    const GoalTime shift = encoding.period * phase / kSetpointPhases;
+    Execution execution(path, encoding, path.start_time() - history + shift);
+    while (execution.next() < path.end_time() + history) {
+      if (!execution.advance(worst)) return beyond_range(encoding, execution.next());
+    }
+  }
+  if (worst.worst_deviation > encoding.bound_counts) return beyond_bound(encoding, worst);
+  return worst;
+}
+
+}  // namespace interpolated_motion::encoding

@@ -1,0 +1,143 @@
+#include "interpolated_motion_driver/motion/setpoint_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace interpolated_motion::motion {
+
+namespace {
+
+/// What lies further back is kept for feedback that is on its way, then forgotten.
+constexpr GoalTime kKept{0.5};
+
+Refusal refuse(std::string text) { return {GoalError::InvalidGoal, std::move(text)}; }
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::size_t column_of(const Setpoint& setpoint, const std::string& joint) {
+  const auto& names = setpoint.joint_names;
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), joint) - names.begin());
+}
+
+}  // namespace
+
+SetpointPath::SetpointPath(trajectory::GoalRules rules, const StreamParameters& parameters)
+    : rules_(std::move(rules)), parameters_(parameters) {}
+
+void SetpointPath::begin(const std::vector<double>& positions, HostTime now) {
+  origin_ = now;
+  source_.clear();
+  newest_.reset();
+  known_ = 0;
+  paths_.clear();
+  for (const double position : positions) paths_.emplace_back(position);
+  knots_.assign(positions.size(), {});
+}
+
+std::optional<Refusal> SetpointPath::add(const Setpoint& setpoint, HostTime committed, HostTime now) {
+  if (auto refusal = check(setpoint, now)) return refusal;
+  const GoalTime start = std::max(goal_time(committed), GoalTime{0.0});
+  std::vector<trajectory::Path> paths;
+  for (std::size_t i = 0; i < rules_.joints.size(); ++i) {
+    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, parameters_.catch_up};
+    const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
+    const auto on = trajectory::stream_path(paths_[i].sample(start), start, aim, rules);
+    if (!on) {
+      Refusal refusal = trajectory::limit_refusal(rules_.joints[i], on.error());
+      refusal.text = fmt::format("The setpoint cannot be reached within {:.2f} s: {}",
+                                 parameters_.catch_up.count(), refusal.text);
+      return refusal;
+    }
+    paths.push_back(trajectory::splice(paths_[i], start - kKept, start, on.value()));
+  }
+  for (std::size_t i = 0; i < knots_.size(); ++i) {
+    std::copy_backward(knots_[i].begin(), knots_[i].end() - 1, knots_[i].end());
+    knots_[i][0] = {seconds(setpoint.time - origin_),
+                    setpoint.positions[column_of(setpoint, rules_.joints[i])]};
+  }
+  known_ = std::min(known_ + 1, std::tuple_size<Knots>::value);
+  paths_ = std::move(paths);
+  newest_ = setpoint.time;
+  source_ = setpoint.source;
+  return std::nullopt;
+}
+
+std::optional<Refusal> SetpointPath::check(const Setpoint& setpoint, HostTime now) const {
+  if (newest_ && setpoint.source != source_) {
+    return refuse(
+        fmt::format("\"{}\" sends setpoints while the stream of \"{}\" is under way. End that first.",
+                    setpoint.source, source_));
+  }
+  if (auto refusal = check_joints(setpoint)) return refusal;
+  return check_time(setpoint, now);
+}
+
+std::optional<Refusal> SetpointPath::check_joints(const Setpoint& setpoint) const {
+  const std::size_t joints = rules_.joints.size();
+  for (const std::string& joint : rules_.joints) {
+    if (column_of(setpoint, joint) == setpoint.joint_names.size())
+      return Refusal{
+          GoalError::InvalidJoints,
+          fmt::format("The setpoint leaves out joint \"{}\": every setpoint names all joints.", joint)};
+  }
+  if (setpoint.joint_names.size() != joints)
+    return Refusal{GoalError::InvalidJoints, fmt::format("The setpoint names {} joints, the group has {}.",
+                                                         setpoint.joint_names.size(), joints)};
+  const bool has_velocities = !setpoint.velocities.empty();
+  if (setpoint.positions.size() != joints || (has_velocities && setpoint.velocities.size() != joints)) {
+    return refuse(fmt::format("The setpoint has {} positions and {} velocities for {} joints.",
+                              setpoint.positions.size(), setpoint.velocities.size(), joints));
+  }
+  if (all_finite(setpoint.positions) && all_finite(setpoint.velocities)) return std::nullopt;
+  return refuse("The setpoint has a position or velocity that is no finite number.");
+}
+
+std::optional<Refusal> SetpointPath::check_time(const Setpoint& setpoint, HostTime now) const {
+  if (newest_ && setpoint.time <= *newest_) {
+    return refuse(fmt::format("The setpoint is out of order: it is {:.3f} s older than the one before.",
+                              seconds(*newest_ - setpoint.time)));
+  }
+  const double age = seconds(now - setpoint.time);
+  if (age > parameters_.max_age.count()) {
+    return refuse(fmt::format("The setpoint is of the past: {:.3f} s old, at most {:.3f} s are allowed.", age,
+                              parameters_.max_age.count()));
+  }
+  if (-age <= parameters_.max_ahead.count()) return std::nullopt;
+  return refuse(fmt::format("The setpoint is too far ahead: {:.3f} s, at most {:.3f} s are allowed.", -age,
+                            parameters_.max_ahead.count()));
+}
+
+trajectory::StreamTarget SetpointPath::target(const Setpoint& setpoint, std::size_t joint,
+                                              std::size_t column) const {
+  const double position = setpoint.positions[column];
+  const double velocity = setpoint.velocities.empty()
+                              ? estimated_velocity(joint, seconds(setpoint.time - origin_), position)
+                              : setpoint.velocities[column];
+  return {goal_time(setpoint.time) + parameters_.delay, position, velocity};
+}
+
+/// Slope at the newest of the parabola through the last three setpoints (with two, of the line; with one, 0).
+/// Never more than the joint can do, nor more than it can brake before a limit of position.
+double SetpointPath::estimated_velocity(std::size_t joint, double time, double position) const {
+  const Knots& knots = knots_[joint];
+  if (known_ == 0) return 0.0;
+  const double slope = (position - knots[0].position) / (time - knots[0].time);
+  double velocity = slope;
+  if (known_ >= 2) {
+    const double before = (knots[0].position - knots[1].position) / (knots[0].time - knots[1].time);
+    velocity += (slope - before) / (time - knots[1].time) * (time - knots[0].time);
+  }
+  const trajectory::JointLimits& limits = rules_.limits[joint];
+  const auto most = [&limits](double room) {
+    return std::min(limits.max_velocity, std::sqrt(2.0 * limits.max_acceleration * std::max(room, 0.0)));
+  };
+  if (limits.continuous) return std::clamp(velocity, -limits.max_velocity, limits.max_velocity);
+  return std::clamp(velocity, -most(position - limits.min_position), most(limits.max_position - position));
+}
+
+}  // namespace interpolated_motion::motion
