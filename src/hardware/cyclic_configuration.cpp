@@ -36,7 +36,10 @@ void parse_emulated(ParameterReader reader, DriveConfiguration& drive) {
 }
 
 /// Longest frame with `bytes` of data and an 11-bit identifier (Davis et al., "CAN schedulability analysis").
-double longest_frame_bits(int bytes) { return 47 + 8 * bytes + (34 + 8 * bytes - 1) / 4; }
+double longest_frame_bits(int bytes) {
+  const int stuffed = (34 + 8 * bytes - 1) / 4;
+  return 47 + 8 * bytes + stuffed;
+}
 
 bool is_period_of_targets(double period) {
   const double ms = period * 1e3;
