@@ -33,6 +33,10 @@ silverlode::Request longest_write() {
   return write_request(silverlode::kMaxAddress, 199, std::numeric_limits<std::int32_t>::min());
 }
 
+silverlode::Request longest_hand_over() {
+  return write_request(silverlode::kMaxAddress, registers::kImsControl, 199);
+}
+
 }  // namespace
 
 RegisterDelivery::RegisterDelivery(const DeliveryContext& context, const SegmentRegisters& registers)
@@ -57,26 +61,32 @@ double RegisterDelivery::segment_time(const silverlode::LineMaster& line) {
   return static_cast<double>(kWrites) * seconds(line.exchange_time(longest_write()));
 }
 
-double RegisterDelivery::record_time() const { return segment_time(line()) / static_cast<double>(kWrites); }
+double RegisterDelivery::record_bus_time() const {
+  return segment_time(line()) / static_cast<double>(kWrites) / line_share();
+}
 
-/// Within a segment the next one is handed over, and once more when the reply is lost.
+/// Time for the hand-over to be tried again, s.
+double RegisterDelivery::reserve() const {
+  return registers_.lost_replies * seconds(line().longest_exchange_time(longest_hand_over()));
+}
+
+/// Within each segment the next one is handed over, with a single block written before, while the segments of
+/// all drives of the line may begin at once.
 double RegisterDelivery::shortest_segment() const {
-  const double lost = seconds(line().longest_exchange_time(longest_write()));
   const double writes = registers_.blocks > 1 ? 1.0 : static_cast<double>(kWrites);
-  return kNotice + lost + writes * record_time();
+  return kNotice + reserve() + static_cast<double>(line().device_count()) * writes * record_bus_time();
 }
 
 // Five writes a segment: four into a block, which is free when the drive begins the segment that is in it,
 // and the one that hands it over, when the drive begins the segment before.
 std::vector<RecordSlot> RegisterDelivery::slots(const std::vector<double>& begins, double horizon) const {
-  const double reserve = seconds(line().longest_exchange_time(longest_write()));
   const std::size_t blocks = registers_.blocks;
   std::vector<RecordSlot> slots;
   slots.reserve(kWrites * begins.size());
   for (std::size_t i = 0; i < begins.size(); ++i) {
     const double block_free = i < blocks ? 0.0 : begins[i - blocks] + kNotice;
     const double before_taken = i < 1 ? 0.0 : begins[i - 1] + kNotice;
-    const GoalTime deadline{i < 1 ? 0.0 : begins[i] - reserve};
+    const GoalTime deadline{i < 1 ? 0.0 : begins[i] - reserve()};
     const GoalTime wanted{std::max(block_free, wanted_at(begins, i, horizon))};
     slots.insert(slots.end(), kBlock, {wanted, deadline});
     slots.push_back({GoalTime{std::max(before_taken, wanted.count())}, deadline});
@@ -156,7 +166,7 @@ bool RegisterDelivery::repetition_is_safe(HostDuration until_executed, HostTime 
 }
 
 void RegisterDelivery::resolve_doubt(HostTime now) {
-  const HostDuration attempt = line().longest_exchange_time(longest_write());
+  const HostDuration attempt = line().longest_exchange_time(longest_hand_over());
   if (repetition_is_safe(2 * attempt, now)) return hand_over(Command::HandOverAgain, now);
   send_as(Command::Ask, silverlode::rrg_request(address(), registers::kImsControl), needed_at());
 }
@@ -164,7 +174,7 @@ void RegisterDelivery::resolve_doubt(HostTime now) {
 /// A repetition that has waited for the line too long is not sent any more.
 void RegisterDelivery::withdraw_late_repetition(HostTime now) {
   if (command_ != Command::HandOverAgain || !device().bulk_waits()) return;
-  if (repetition_is_safe(line().longest_exchange_time(longest_write()), now)) return;
+  if (repetition_is_safe(line().longest_exchange_time(longest_hand_over()), now)) return;
   SegmentDelivery::give_up();
   command_ = Command::None;
 }

@@ -46,6 +46,7 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
     const auto more = source_->encoder.next(stretch.segment, certificate);
     if (!more) return more.error();
     stretch.ticks = stretch.segment.time;
+    stretch.rate = source_->encoder.rate();
   }
   next_ = stretch;
   return stretch.segment;
@@ -114,9 +115,10 @@ GoalTime SegmentFeed::goal_time_at(double drive_seconds) const {
   if (stretches_.empty() || drive_seconds < path_begin)
     return source_->path.start_time() + GoalTime{drive_seconds - path_begin};
   const Stretch& stretch = stretches_[executing(drive_seconds)];
+  // The last tick of waiting and the first one of the path are the same instant.
+  if (stretch.rate == 0.0) return stretch.goal_begin + GoalTime{drive_seconds - path_begin};
   const double since = drive_seconds - tick_ * static_cast<double>(stretch.begin);
-  const double rate = stretch.rate > 0.0 ? stretch.rate : 1.0;
-  return stretch.goal_begin + GoalTime{since * rate};
+  return stretch.goal_begin + GoalTime{since * stretch.rate};
 }
 
 }  // namespace interpolated_motion::axis

@@ -53,7 +53,8 @@ SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::
       status_(device, parameters_.transmission),
       clock_(parameters_.max_clock_error, 0.5 * seconds(parameters_.execution_time),
              PlaybackClock::Estimate::Middle),
-      delivery_(make_delivery(parameters_, {line_, device_, sequence_, feed_, clock_})) {
+      delivery_(
+          make_delivery(parameters_, {line_, device_, sequence_, feed_, clock_, parameters_.line_share})) {
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");
   encoding().validate();

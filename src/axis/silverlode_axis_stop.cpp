@@ -7,6 +7,8 @@ namespace interpolated_motion::axis {
 
 // A drive that is told to stop.
 
+using silverlode::Outcome;
+
 void SilverlodeAxis::stop(HostTime now) {
   delivery_->give_up();
   switch (phase_) {
@@ -31,10 +33,31 @@ SilverlodeAxis::Steps SilverlodeAxis::emptying_steps() {
   return steps;
 }
 
+/// A ramp ends between two counts, while segments are encoded from where register 0 says that the demand
+/// rests.
+CommandSequence::Step SilverlodeAxis::settle_on_a_count() {
+  constexpr double kSpeed = 100.0;  // counts/s, for less than a count
+  const auto look = [this](const Outcome& outcome) -> std::optional<std::string> {
+    const auto counts = outcome.register_value();
+    if (!counts) return device_.text(outcome);
+    const auto busy_or_taken = [this](const Outcome& moved) -> std::optional<std::string> {
+      if (moved.accepted() || moved.refused_with(silverlode::NakCode::DeviceBusy)) return std::nullopt;
+      return device_.text(moved);
+    };
+    sequence_.insert({{silverlode::mav_request(device_.address(), *counts, stop_deceleration(),
+                                               silverlode::velocity_units(kSpeed, parameters_.command_scale)),
+                       busy_or_taken},
+                      await_rest(kLooksAtStop)});
+    return std::nullopt;
+  };
+  return {silverlode::rrg_request(device_.address(), silverlode::registers::kTargetPosition), look};
+}
+
 /// STP ends the interpolated motion on a ramp; what is left in the queue goes once the drive stands.
 void SilverlodeAxis::start_braking(HostTime now) {
   Steps steps{{silverlode::stp_request(device_.address(), stop_deceleration()), {}},
               await_rest(kLooksAtStop)};
+  steps.push_back(settle_on_a_count());
   for (auto& step : emptying_steps()) steps.push_back(std::move(step));
   sequence_.start(std::move(steps), now);
 }

@@ -51,15 +51,19 @@ void ImsEncoder::set_rate(double goal_seconds_per_drive_second) {
     throw std::invalid_argument(fmt::format("Joint '{}': rate is {}, allowed is {} to {}.", encoding_.joint,
                                             goal_seconds_per_drive_second, kMinRate, kMaxRate));
   }
-  if (!finished()) search_.restart(search_.rules().scale.tick * goal_seconds_per_drive_second);
+  const double seconds_per_tick = search_.rules().scale.tick * goal_seconds_per_drive_second;
+  if (!finished() && seconds_per_tick != search_.seconds_per_tick()) search_.restart(seconds_per_tick);
 }
+
+double ImsEncoder::rate() const { return search_.seconds_per_tick() / search_.rules().scale.tick; }
 
 Expected<bool, Refusal> ImsEncoder::next(ImsSegment& segment, ImsCertificate& certificate) {
   if (finished()) return false;
   Refusal refusal;
   if (!check_knot(refusal)) return refusal;
   ImsCandidate decided;
-  if (!search_.next(decided)) return refuse_dead_end(*path_, encoding_, search_);
+  const bool found = search_.next(decided) || (search_.take_back_restart() && search_.next(decided));
+  if (!found) return refuse_dead_end(*path_, encoding_, search_);
   segment = segment_of(search_.rules(), knot_.state, decided.move);
   certificate = certificate_of(decided.figures);
   knot_ = {decided.tick, search_.samples().goal_time(decided.tick), decided.state};

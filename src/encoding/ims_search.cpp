@@ -82,6 +82,7 @@ ImsSearch::ImsSearch(TickSamples samples, const ImsRules& rules, std::int64_t ta
       rules_(rules),
       target_(target),
       target_sum_(interpolation::ims_at_rest(rules.scale, target).sum),
+      seconds_per_tick_(rules.scale.tick),
       dead_end_(from) {
   generations_[0].add(from);
   forget_generations();
@@ -93,8 +94,21 @@ void ImsSearch::forget_generations() {
 }
 
 void ImsSearch::restart(double seconds_per_tick) {
+  if (!restarted_) known_ = {generations_, depth_, seconds_per_tick_};
+  restarted_ = true;
+  seconds_per_tick_ = seconds_per_tick;
   samples_.restart(knot().tick, samples_.goal_time(knot().tick), seconds_per_tick);
   forget_generations();
+}
+
+bool ImsSearch::take_back_restart() {
+  if (!restarted_) return false;
+  restarted_ = false;
+  seconds_per_tick_ = known_.seconds_per_tick;
+  samples_.restart(knot().tick, samples_.goal_time(knot().tick), seconds_per_tick_);
+  generations_ = known_.generations;
+  depth_ = known_.depth;
+  return true;
 }
 
 bool ImsSearch::next(ImsCandidate& decided) {
@@ -162,6 +176,7 @@ ImsCandidate ImsSearch::decide() {
   for (std::size_t d = 2; d <= depth_; ++d) keep_descendants(generations_[d], moved_to, generations_[d - 1]);
   generations_[depth_].longest_allowed = rules_.max_ticks;
   --depth_;
+  restarted_ = false;
   return decided;
 }
 

@@ -113,6 +113,7 @@ void parse_queue(ParameterReader& reader, DriveConfiguration& drive) {
       reader.integer("first_register", registers.first, 0, std::numeric_limits<std::uint16_t>::max()));
   registers.blocks = static_cast<std::size_t>(
       reader.integer("register_blocks", static_cast<std::int64_t>(registers.blocks), 1, kMostBlocks));
+  registers.lost_replies = static_cast<int>(reader.integer("lost_replies", registers.lost_replies, 0, 10));
   if (auto wrong = axis::refuse_segment_registers(registers)) reader.fail("first_register", *wrong);
 }
 

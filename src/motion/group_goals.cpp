@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -111,10 +112,12 @@ std::optional<Refusal> Group::check_budget(const trajectory::GoalPlan& plan) con
     return Refusal{
         GoalError::InvalidGoal,
         fmt::format(
-            "Bus {} cannot carry the goal: at {:.3f} s it needs {:.0f} records in a second, but its "
-            "share for records allows {:.0f} a second. Slow the goal down, use smoother points, raise "
-            "the bit rate, or put the drives on more buses.",
-            bus, missed->time.count(), missed->needed, 1.0 / demand.front().record_bus_time)};
+            "Bus {} cannot carry the goal: at {:.3f} s a record would come {:.0f} ms too late; it needs "
+            "{:.0f} "
+            "records in the second before, and its share for records allows {:.0f} a second. Slow the goal "
+            "down, use smoother points, raise the bit rate, or put the drives on more buses.",
+            bus, missed->time.count(), std::ceil(1e3 * missed->late.count()), missed->needed,
+            1.0 / demand.front().record_bus_time)};
   }
   return std::nullopt;
 }

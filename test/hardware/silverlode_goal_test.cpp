@@ -57,7 +57,8 @@ TEST_P(SilverlodeGoals, FitOneLineOrAreRefusedBeforeAnythingMoves) {
     std::printf("%s: %s\n", GetParam(), accepted.error().text.c_str());
     EXPECT_NE(accepted.error().text.find("Bus line0 cannot carry the goal"), std::string::npos)
         << accepted.error().text;
-    EXPECT_NE(accepted.error().text.find("records in a second"), std::string::npos) << accepted.error().text;
+    EXPECT_NE(accepted.error().text.find("records in the second before"), std::string::npos)
+        << accepted.error().text;
     const auto before = scenario.positions();
     scenario.run(1.0);
     EXPECT_EQ(scenario.positions(), before);
@@ -76,6 +77,25 @@ TEST_P(SilverlodeGoals, FitOneLineOrAreRefusedBeforeAnythingMoves) {
 INSTANTIATE_TEST_SUITE_P(Planned, SilverlodeGoals,
                          testing::Values("six_axis_toppra_100ms_pv.yaml", "six_axis_toppra_100ms_pva.yaml",
                                          "six_axis_toppra_20ms_pva.yaml"));
+
+// A stop ends anywhere between two counts; the next goal keeps its bound all the same.
+TEST(SilverlodeGoalAfterAStop, KeepsTheBound) {
+  Scenario scenario(six_axis_silverlode());
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  for (int i = 0; i < 5; ++i) {
+    const auto first = scenario.submit(make_goal({1.0}, {{0.5, -0.5, 0.4, 0.3, -0.2, 0.1}}));
+    ASSERT_TRUE(first) << first.error().text;
+    ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+    scenario.run(0.9 + 0.037 * i);
+    scenario.driver().cancel(first.value().id, scenario.now());
+    EXPECT_EQ(scenario.result_of(first.value().id).outcome, GoalOutcome::Preempted);
+    const auto second = scenario.submit(make_goal({1.0}, {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0}}));
+    ASSERT_TRUE(second) << second.error().text;
+    const auto result = scenario.result_of(second.value().id);
+    EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+    expect_followed(scenario, 2.0, 1.0);
+  }
+}
 
 // The budget must not be so wide that it never refuses: at 9600 baud the same goals need more than the line.
 TEST(SilverlodeBudget, SlowLineRefusesWithTheFigure) {

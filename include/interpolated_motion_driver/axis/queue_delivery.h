@@ -27,7 +27,7 @@ class QueueDelivery : public SegmentDelivery {
   Steps bring_up_steps() override;
   Steps clear_steps() override;
   double shortest_segment() const override { return 0.0; }
-  double record_time() const override { return segment_time(line()); }
+  double record_bus_time() const override { return segment_time(line()) / line_share(); }
   std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const override;
 
   void begin() override;

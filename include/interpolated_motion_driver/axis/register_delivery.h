@@ -36,7 +36,7 @@ class RegisterDelivery : public SegmentDelivery {
   Steps bring_up_steps() override;
   Steps clear_steps() override;
   double shortest_segment() const override;
-  double record_time() const override;
+  double record_bus_time() const override;
   std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const override;
 
   void begin() override;
@@ -66,6 +66,7 @@ class RegisterDelivery : public SegmentDelivery {
   void withdraw_late_repetition(HostTime now);
   bool repetition_is_safe(HostDuration until_executed, HostTime now) const;
   HostTime needed_at() const;
+  double reserve() const;
   void send_as(Command command, const silverlode::Request& request, HostTime deadline);
 
   Failure take_failure(Command command, const silverlode::Outcome& outcome);

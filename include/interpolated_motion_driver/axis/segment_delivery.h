@@ -22,6 +22,7 @@ struct DeliveryContext {
   CommandSequence& sequence;
   SegmentFeed& feed;
   const PlaybackClock& clock;
+  double line_share;  ///< of the line's time that records may fill
 };
 
 /// The way segments take into a SilverLode drive. QCI-TD044 has two: QueueDelivery and RegisterDelivery.
@@ -49,8 +50,9 @@ class SegmentDelivery {
 
   /// Shortest segment, s, that the drive may be given: the line must be able to follow.
   virtual double shortest_segment() const = 0;
-  /// Time of the line that one record takes, s, all of the line its own. A record is what a slot stands for.
-  virtual double record_time() const = 0;
+  /// Time of the line that one record takes, s, as share of what records may fill. A record is what a slot
+  /// stands for.
+  virtual double record_bus_time() const = 0;
   /// When what must cross the line for a path may and must do so. Segment i begins at `begins[i]` seconds
   /// after the path does, the segment that ends the motion at the last of them; those that begin within
   /// `horizon` are wanted in the drive.
@@ -89,6 +91,7 @@ class SegmentDelivery {
   CommandSequence& sequence() const { return context_.sequence; }
   SegmentFeed& feed() const { return context_.feed; }
   const PlaybackClock& clock() const { return context_.clock; }
+  double line_share() const { return context_.line_share; }
 
  private:
   DeliveryContext context_;

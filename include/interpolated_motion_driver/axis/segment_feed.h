@@ -33,7 +33,8 @@ class SegmentFeed {
   void wait(std::int64_t ticks);
 
   /// The segment to send next, the same until mark_sent(). A new one is encoded with `rate` goal seconds per
-  /// second of the drive. Refused when the path cannot be followed from where the segments so far lead.
+  /// second of the drive, or with the rate of the last one where `rate` leads into a dead end. Refused when
+  /// the path cannot be followed from where the segments so far lead.
   Expected<ImsSegment, Refusal> next(double rate);
   void mark_sent();
 

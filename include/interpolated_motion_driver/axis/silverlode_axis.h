@@ -49,7 +49,7 @@ class SilverlodeAxis : public Axis {
   GoalTime start_lead() const override { return GoalTime{parameters_.start_lead}; }
   std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override { return planned_slots_; }
-  double record_bus_time() const override { return delivery_->record_time() / parameters_.line_share; }
+  double record_bus_time() const override { return delivery_->record_bus_time(); }
   void load(HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override { return begin_; }
@@ -102,6 +102,7 @@ class SilverlodeAxis : public Axis {
   Steps enable_steps();
   Steps clear_status();
   Steps emptying_steps();
+  CommandSequence::Step settle_on_a_count();
   Steps error_limit_steps();
   CommandSequence::Step await_rest(int looks_left);
   CommandSequence::Step check_no_fault();

@@ -31,7 +31,9 @@ class ImsEncoder {
   /// Goal time that passes from knot() on in a second of the drive's own clock (default 1, allowed 0.5..2):
   /// tick k after knot() is at goal time knot().goal_time + k * tick * rate. So a drive whose crystal is fast
   /// by 100 ppm is given 1 / 1.0001. Throws std::invalid_argument.
+  /// Where the way on from knot() is too narrow for it, the rate of the segment before is kept, see rate().
   void set_rate(double goal_seconds_per_drive_second);
+  double rate() const;
 
   /// One more segment with its certificate: true, or false if there is none after knot(). Allocates only for
   /// a refusal, and after a refusal there is nothing more to ask for. See encode_ims() for what is refused.

@@ -62,6 +62,10 @@ class ImsSearch {
 
   /// Goes on from knot() with ticks of another length (s of goal time).
   void restart(double seconds_per_tick);
+  /// Takes back what restart() has changed since the knot was decided: the way on that was known then is
+  /// known again. False when there is nothing to take back.
+  bool take_back_restart();
+  double seconds_per_tick() const { return seconds_per_tick_; }
 
   /// Decides one more knot, not to be called when finished(). False: there is a dead end at dead_end().
   bool next(ImsCandidate& decided);
@@ -105,7 +109,16 @@ class ImsSearch {
   std::int64_t target_sum_;
   std::array<ImsGeneration, kDepth + 1> generations_;  ///< the first holds knot() alone
   std::size_t depth_ = 0;                              ///< generations known after knot()
-  std::array<ImsCandidate, kMaxOffers> offers_;        ///< not yet executed
+  double seconds_per_tick_;
+  /// What was known before the first restart() since knot() was decided.
+  struct Known {
+    std::array<ImsGeneration, kDepth + 1> generations;
+    std::size_t depth = 0;
+    double seconds_per_tick = 0.0;
+  };
+  Known known_;
+  bool restarted_ = false;
+  std::array<ImsCandidate, kMaxOffers> offers_;  ///< not yet executed
   std::size_t offered_ = 0;
   AccelerationFunnel funnel_;
   AccelerationFunnel onward_;

@@ -17,13 +17,14 @@ struct BusDemand {
 /// A record that would come too late.
 struct MissedDeadline {
   GoalTime time{0.0};   ///< when the drive needs the record
+  GoalTime late{0.0};   ///< by so much it would come too late
   double needed = 0.0;  ///< records per second asked for in the second before
 };
 
-/// Checks that one bus can carry the records of all its axes in time. Records that fit into the FIFOs are
-/// loaded before the start and cost nothing; the others are sent in the order of their deadlines, each not
-/// before the FIFO has a place for it. Earliest deadline first is optimal on one bus, so what fails here
-/// cannot be carried in any order.
+/// Checks that one bus can carry the records of all its axes in time, in the order the axes really send them:
+/// whenever the bus is free, of those that may be sent the one with the earliest deadline. Records that fit
+/// into the FIFOs are loaded before the start and cost nothing; the others are sent not before the FIFO has a
+/// place for them.
 std::optional<MissedDeadline> check_bus_budget(const std::vector<BusDemand>& demands, GoalTime start);
 
 }  // namespace interpolated_motion::motion

@@ -28,6 +28,8 @@ std::string_view mnemonic(Command command) {
       return "IMW";
     case Command::POR:
       return "POR";
+    case Command::MAV:
+      return "MAV";
     case Command::ZTP:
       return "ZTP";
     case Command::TTP:

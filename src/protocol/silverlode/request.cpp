@@ -135,6 +135,10 @@ Request imw_request(std::uint8_t address, std::int32_t time, std::int32_t positi
                     std::int32_t velocity) {
   return request_with(address, Command::IMW, time, position, acceleration, velocity);
 }
+Request mav_request(std::uint8_t address, std::int32_t position, std::int32_t acceleration,
+                    std::int32_t velocity) {
+  return request_with(address, Command::MAV, position, acceleration, velocity, 0, 0);
+}
 Request ttp_request(std::uint8_t address) { return request_with(address, Command::TTP); }
 Request ztp_request(std::uint8_t address) { return request_with(address, Command::ZTP); }
 Request erl_request(std::uint8_t address, std::int16_t moving, std::int16_t holding, std::uint16_t delay) {

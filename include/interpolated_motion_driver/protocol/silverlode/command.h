@@ -21,6 +21,7 @@ enum class Command : std::uint8_t {
   RIO = 21,   ///< read I/O status word
   IMW = 25,   ///< interpolated move write queue
   POR = 27,   ///< poll, always answered with the polling status word
+  MAV = 134,  ///< move absolute, with acceleration and velocity
   ZTP = 145,  ///< zero target and position
   TTP = 146,  ///< target to position
   ERL = 151,  ///< error limits

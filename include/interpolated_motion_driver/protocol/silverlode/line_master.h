@@ -61,6 +61,8 @@ class LineMaster {
   /// The device, or nullptr when it was not added.
   DeviceLink* find_device(std::uint8_t address) { return devices_[address].get(); }
 
+  std::size_t device_count() const { return in_order_.size(); }
+
   const std::string& line_name() const { return line_name_; }
   const LineParameters& parameters() const { return parameters_; }
 
