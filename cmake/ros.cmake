@@ -45,7 +45,7 @@ function(imd_add_packaging_tests)
   imd_link_ros(packaging_tests)
 
   file(GLOB python_tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test/*/*_test.py)
-  list(FILTER python_tests EXCLUDE REGEX "^test/(node|socketcan)/")
+  list(FILTER python_tests EXCLUDE REGEX "^test/(node|socketcan|real_buses)/")
   foreach(file IN LISTS python_tests)
     get_filename_component(name ${file} NAME_WE)
     set(xml pytest-${name}.xml)

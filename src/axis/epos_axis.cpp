@@ -23,6 +23,8 @@ namespace {
 constexpr HostDuration kStateTimeout = 2s;
 /// How often an axis wants to be polled while it works towards something.
 constexpr HostDuration kPollInterval = 5ms;
+/// Polls further apart than this mean that the host was away: stopped, or starved by other programs.
+constexpr HostDuration kHostStall = 100ms;
 
 void require_finite(const EposAxisParameters& parameters, double value, const char* name) {
   if (std::isfinite(value) && value > 0.0) return;
@@ -88,12 +90,19 @@ AxisState EposAxis::state() const {
 // -------------------------------------------------------------------------------------------------------
 
 void EposAxis::poll(HostTime now) {
-  polled_ = now;
+  forgive_stall(now);
   collect_emergencies();
   watch_heartbeat(now);
   watch_power_stage(now);
   sequence_.poll(now);
   run_phase(now);
+}
+
+/// The time limit of a phase is for the drive: what the host was away for does not count.
+void EposAxis::forgive_stall(HostTime now) {
+  const HostDuration away = now - polled_;
+  if (away > kHostStall && polled_ >= phase_since_) phase_since_ += away;
+  polled_ = now;
 }
 
 HostTime EposAxis::next_deadline() const {

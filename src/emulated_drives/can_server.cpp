@@ -12,7 +12,11 @@ namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr int kHostPort = 0;
-constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
+/// A drive answers at one of its next samples: while frames come or go, the drives are looked after that
+/// often, else as often as they have something to say by themselves (heartbeats, emergencies).
+constexpr HostDuration kAttentiveWait = std::chrono::milliseconds(2);
+constexpr HostDuration kIdleWait = std::chrono::milliseconds(10);
+constexpr HostDuration kAttentive = std::chrono::milliseconds(10);
 constexpr double kSample = 1e-3;  // s
 
 transport::SocketcanParameters interface_parameters(const CanDrives& list) {
@@ -60,7 +64,8 @@ void CanServer::turn() {
   take_frames();
   run_drives(now);
   send_frames(now);
-  turn_at(std::min({world_.next_event(), interface_.next_deadline(), now + kLongestWait}));
+  const bool attentive = now - last_frame_ < kAttentive;
+  turn_at(now + (attentive ? kAttentiveWait : kIdleWait));
 }
 
 void CanServer::follow_interface(HostTime now) {
@@ -95,7 +100,9 @@ void CanServer::take_frames() {
   while (bus_.free_slots(kHostPort) > 0) {
     const auto received = interface_.receive();
     if (!received) return;
-    if (!received->own) bus_.host().send(received->frame, received->time);
+    if (received->own) continue;
+    bus_.host().send(received->frame, received->time);
+    last_frame_ = received->time;
   }
 }
 
@@ -103,7 +110,9 @@ void CanServer::run_drives(HostTime now) {
   do {
     world_.advance(now);
     while (const auto frame = bus_.host().receive()) {
-      if (!frame->own) outgoing_.push_back(frame->frame);
+      if (frame->own) continue;
+      outgoing_.push_back(frame->frame);
+      last_frame_ = now;
     }
   } while (world_.now() < now);
 }

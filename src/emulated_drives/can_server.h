@@ -37,6 +37,7 @@ class CanServer : public Server {
   std::string nodes_;
   std::list<SampleFile> samples_;
   bool waiting_ = false;
+  HostTime last_frame_{};
   std::deque<canopen::Frame> outgoing_;
 };
 

@@ -14,8 +14,8 @@ namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
-/// Servo ticks of observed drives need no turn of their own; about two characters at 115200 bit/s.
-constexpr HostDuration kShortestWait = std::chrono::microseconds(200);
+/// About five characters at 57600 bit/s.
+constexpr HostDuration kShortestWait = std::chrono::milliseconds(1);
 constexpr double kLongestUnplugged = 3600.0;  // s
 
 }  // namespace
@@ -87,7 +87,8 @@ void SerialServer::turn() {
   wait_for_characters();
   take_characters();
   run_drives(now);
-  const HostTime next = std::min({world_.next_event(), plug_in_at_, now + kLongestWait});
+  // A drive says nothing unless it was asked, so only what is on the line needs a turn.
+  const HostTime next = std::min({line_.next_event(), plug_in_at_, now + kLongestWait});
   turn_at(std::max(next, now + kShortestWait));
 }
 

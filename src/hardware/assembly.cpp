@@ -33,6 +33,7 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
   parameters.clock_discipline = bus.clock_discipline;
   parameters.heartbeat_period = host_duration(bus.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
+  parameters.feedback_timeout = parameters.heartbeat_timeout;
   parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }

@@ -4,12 +4,21 @@
 
 namespace interpolated_motion::hardware {
 
+namespace {
+
+constexpr HostDuration kCountPeriod = std::chrono::milliseconds(100);
+
+}  // namespace
+
 SocketcanDevice::SocketcanDevice(EventLoop loop, transport::SocketcanParameters parameters, HostTime now)
     : loop_(std::move(loop)), bus_(*loop_.io, std::move(parameters), now) {}
 
 bool SocketcanDevice::poll(HostTime now) {
   const bool changed = bus_.poll_interface(now);
-  counters_ = bus_.counters();
+  if (changed || now >= next_count_) {
+    counters_ = bus_.counters();
+    next_count_ = now + kCountPeriod;
+  }
   return changed;
 }
 

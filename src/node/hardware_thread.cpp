@@ -10,6 +10,8 @@
 namespace interpolated_motion::node {
 namespace {
 
+/// Frames come in bursts, the answers of all drives to one SYNC: one turn serves what comes within that time.
+constexpr HostDuration kBurst = std::chrono::milliseconds(1);
 /// Shortest sleep. A deadline that is always in the past must not make a SCHED_FIFO thread starve the
 /// machine.
 constexpr HostDuration kShortestSleep = std::chrono::microseconds(100);
@@ -17,7 +19,7 @@ constexpr HostDuration kShortestSleep = std::chrono::microseconds(100);
 }  // namespace
 
 HardwareThread::HardwareThread(const Factory& make, const Settings& settings, Listener listener)
-    : settings_(settings), listener_(std::move(listener)), hardware_(make({&io_, [this] { tick(); }})) {
+    : settings_(settings), listener_(std::move(listener)), hardware_(make({&io_, [this] { wake(); }})) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -53,8 +55,15 @@ void HardwareThread::apply_priority() {
            settings_.realtime_priority, std::strerror(error))});
 }
 
+void HardwareThread::wake() {
+  const HostTime due = last_tick_ + kBurst;
+  if (host_now() >= due) return tick();
+  if (timer_.expiry() > to_steady(due)) schedule_at(due);
+}
+
 void HardwareThread::tick() {
-  hardware_->update(host_now());
+  last_tick_ = host_now();
+  hardware_->update(last_tick_);
   hand_out_events();
   hand_out_snapshot();
   schedule();
@@ -81,7 +90,11 @@ void HardwareThread::hand_out_snapshot() {
 void HardwareThread::schedule() {
   const HostTime now = host_now();
   const HostTime due = std::min(hardware_->next_deadline(), now + settings_.loop_period);
-  timer_.expires_at(to_steady(std::max(due, now + kShortestSleep)));
+  schedule_at(std::max(due, now + kShortestSleep));
+}
+
+void HardwareThread::schedule_at(HostTime time) {
+  timer_.expires_at(to_steady(time));
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (!error) tick();
   });

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include <boost/system/system_error.hpp>
 
@@ -83,11 +84,17 @@ canopen::Frame from_kernel(const can_frame& raw) {
   return frame;
 }
 
+/// Both clocks at one instant.
+struct Clocks {
+  HostTime host = read_host_clock();
+  HostDuration wall = read_wall_clock();
+};
+
 /// The wall clock may have been set since the stamp was taken: an age that cannot be is taken as none.
-HostTime host_time_of(HostDuration wall_stamp) {
-  const HostDuration age = read_wall_clock() - wall_stamp;
+HostTime host_time_of(HostDuration wall_stamp, const Clocks& now) {
+  const HostDuration age = now.wall - wall_stamp;
   const bool credible = age >= HostDuration::zero() && age < kOldestStamp;
-  return read_host_clock() - (credible ? age : HostDuration::zero());
+  return now.host - (credible ? age : HostDuration::zero());
 }
 
 struct Ancillary {
@@ -111,6 +118,30 @@ Ancillary read_ancillary(msghdr& message) {
   }
   return found;
 }
+
+/// Room for the frames of one recvmmsg() and what the kernel tells about them.
+template <std::size_t kCount>
+struct Messages {
+  using Control = std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t))>;
+  struct alignas(cmsghdr) AlignedControl {
+    Control bytes;
+  };
+
+  std::array<can_frame, kCount> frames{};
+  std::array<iovec, kCount> data{};
+  std::array<AlignedControl, kCount> control;
+  std::array<mmsghdr, kCount> headers{};
+
+  Messages() {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      data[i] = {&frames[i], sizeof frames[i]};
+      headers[i].msg_hdr.msg_iov = &data[i];
+      headers[i].msg_hdr.msg_iovlen = 1;
+      headers[i].msg_hdr.msg_control = control[i].bytes.data();
+      headers[i].msg_hdr.msg_controllen = control[i].bytes.size();
+    }
+  }
+};
 
 int open_socket() {
   const int fd = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
@@ -148,32 +179,46 @@ CanSocket::SendResult CanSocket::send(const canopen::Frame& frame) {
 }
 
 std::optional<CanSocket::Received> CanSocket::receive() {
-  can_frame raw{};
-  iovec data{&raw, sizeof raw};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t))> control;
-  msghdr message{};
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = control.data();
-  message.msg_controllen = control.size();
-  ssize_t length = -1;
-  do {
-    length = recvmsg(descriptor_.native_handle(), &message, 0);
-  } while (length < 0 && errno == EINTR);
-
-  Received received;
-  if (length < 0) {
-    if (errno == EAGAIN) return std::nullopt;
-    received.down = true;
-    return received;
+  if (read_ == filled_ && !std::exchange(drained_, false)) fill();
+  if (read_ == filled_) {
+    drained_ = false;
+    return std::nullopt;
   }
-  const Ancillary ancillary = read_ancillary(message);
-  if (ancillary.dropped) dropped_ = *ancillary.dropped;
-  last_time_ =
-      std::max(last_time_, ancillary.wall_stamp ? host_time_of(*ancillary.wall_stamp) : read_host_clock());
-  received.frame = {from_kernel(raw), last_time_, (message.msg_flags & MSG_CONFIRM) != 0};
-  if ((raw.can_id & CAN_ERR_FLAG) != 0) received.error_classes = raw.can_id & CAN_ERR_MASK;
+  const Received& received = batch_[read_++];
+  if (received.dropped) dropped_ = *received.dropped;
   return received;
+}
+
+void CanSocket::fill() {
+  Messages<kBatch> messages;
+  int count = -1;
+  do {
+    count = recvmmsg(descriptor_.native_handle(), messages.headers.data(), kBatch, 0, nullptr);
+  } while (count < 0 && errno == EINTR);
+  read_ = filled_ = 0;
+  drained_ = true;
+  if (count < 0 && errno == EAGAIN) return;
+  if (count < 0) {
+    batch_[filled_++] = Received{{}, 0, {}, true};
+    return;
+  }
+  const Clocks now;
+  filled_ = static_cast<std::size_t>(count);
+  drained_ = filled_ < kBatch;
+  for (std::size_t i = 0; i < filled_; ++i) {
+    msghdr& header = messages.headers[i].msg_hdr;
+    const can_frame& raw = messages.frames[i];
+    const Ancillary ancillary = read_ancillary(header);
+    // Stamps may come from several processors: time must not run back.
+    last_time_ =
+        std::max(last_time_, ancillary.wall_stamp ? host_time_of(*ancillary.wall_stamp, now) : now.host);
+    const bool is_error = (raw.can_id & CAN_ERR_FLAG) != 0;
+    const bool own = (header.msg_flags & MSG_CONFIRM) != 0;
+    batch_[i] = Received{{from_kernel(raw), last_time_, own},
+                         is_error ? raw.can_id & CAN_ERR_MASK : 0U,
+                         ancillary.dropped,
+                         false};
+  }
 }
 
 std::uint32_t CanSocket::dropped() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ class CanSocket {
   struct Received {
     canopen::ReceivedFrame frame;
     std::uint32_t error_classes = 0;
+    std::optional<std::uint32_t> dropped;  ///< frames the kernel had no room for until this one came
     bool down = false;
   };
 
@@ -43,6 +45,8 @@ class CanSocket {
             int receive_buffer, int send_buffer);
 
   SendResult send(const canopen::Frame& frame);
+  /// The next one there is. When it returns none, all that was there at the latest look at the kernel has
+  /// been taken: more may have come since, which a wait for readability tells at once.
   std::optional<Received> receive();
 
   /// Received frames that the kernel had no room for, since the socket was opened. Asks the kernel.
@@ -56,9 +60,18 @@ class CanSocket {
   boost::asio::posix::stream_descriptor& descriptor() { return descriptor_; }
 
  private:
+  /// Frames taken from the kernel at a time: a burst of answers to one SYNC.
+  static constexpr std::size_t kBatch = 32;
+
+  void fill();
+
   boost::asio::posix::stream_descriptor descriptor_;
   std::uint32_t dropped_ = 0;
   HostTime last_time_{};
+  std::array<Received, kBatch> batch_;
+  std::size_t read_ = 0;
+  std::size_t filled_ = 0;
+  bool drained_ = false;  ///< the latest batch was not full
 };
 
 }  // namespace interpolated_motion::transport

@@ -18,7 +18,9 @@ motion::Snapshot snapshot() {
   motion::Snapshot result;
   result.time = host_now();
   result.goal_time = GoalTime(1.25);
-  result.buses.push_back({"can0", 0.125, 1, 2, 3});
+  result.buses.emplace_back();
+  result.buses.back().name = "can0";
+  result.buses.back().load = 0.125;
   for (const char* name : {"joint1", "joint2"}) {
     motion::JointSnapshot joint;
     joint.joint = name;

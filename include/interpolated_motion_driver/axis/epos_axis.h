@@ -99,6 +99,7 @@ class EposAxis : public Axis {
     bool contains(std::size_t used) const { return used >= least && used <= most; }
   };
 
+  void forgive_stall(HostTime now);
   void run_phase(HostTime now);
   void poll_probing(HostTime now);
   void poll_configuring(HostTime now);

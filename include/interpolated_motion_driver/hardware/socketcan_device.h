@@ -27,7 +27,8 @@ class SocketcanDevice : public BusDevice {
  private:
   EventLoop loop_;
   transport::SocketcanBus bus_;
-  transport::SocketcanCounters counters_;  ///< as of the last poll()
+  transport::SocketcanCounters counters_;  ///< asked for now and then, since that is a question to the kernel
+  HostTime next_count_{};
   bool watching_ = false;
 };
 

@@ -77,10 +77,12 @@ class HardwareThread {
   std::optional<Value> wait(std::future<Value> future, HostTime until) const;
   void run();
   void apply_priority();
+  void wake();
   void tick();
   void hand_out_events();
   void hand_out_snapshot();
   void schedule();
+  void schedule_at(HostTime time);
   void stop();
 
   const Settings settings_;
@@ -89,6 +91,7 @@ class HardwareThread {
   boost::asio::io_context io_;
   boost::asio::steady_timer timer_{io_};
   std::unique_ptr<Hardware> hardware_;
+  HostTime last_tick_{};
   std::map<motion::RequestId, PromisedResult> requests_;
 
   motion::Snapshot back_;  ///< the thread's own, exchanged with front_
