@@ -9,13 +9,13 @@ using silverlode::Outcome;
 using silverlode::Request;
 
 void SilverlodeStatus::ask(bool moving, bool multi_register, HostTime now) {
-  static const std::vector<Question> kMoving{Question::PositionAndExecution, Question::Io};
-  static const std::vector<Question> kMovingSingle{Question::Position, Question::Ticks, Question::Io};
-  static const std::vector<Question> kResting{Question::PositionAndDeceleration, Question::Polling};
-  static const std::vector<Question> kRestingSingle{Question::Position, Question::Deceleration,
+  static const std::vector<Question> moving_all{Question::PositionAndExecution, Question::Io};
+  static const std::vector<Question> moving_single{Question::Position, Question::Ticks, Question::Io};
+  static const std::vector<Question> resting_all{Question::PositionAndDeceleration, Question::Polling};
+  static const std::vector<Question> resting_single{Question::Position, Question::Deceleration,
                                                     Question::Polling};
-  const auto& questions =
-      moving ? (multi_register ? kMoving : kMovingSingle) : (multi_register ? kResting : kRestingSingle);
+  const auto& questions = moving ? (multi_register ? moving_all : moving_single)
+                                 : (multi_register ? resting_all : resting_single);
   question_ = questions[turn_++ % questions.size()];
   asked_ = device_.request(request_of(question_));
   asked_at_ = now;

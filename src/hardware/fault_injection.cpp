@@ -94,14 +94,14 @@ bool inject_bus_fault(transport::VirtualCanBus& bus, const std::string& text, Ho
 bool inject_drive_fault(emulation::SilverDust& drive, const std::string& text, HostTime now,
                         std::string* reason) {
   using emulation::SilverDustFault;
-  static const std::map<std::string, SilverDustFault> kFaults{
+  static const std::map<std::string, SilverDustFault> faults{
       {"fault over_temperature", SilverDustFault::OverTemperature},
       {"fault over_voltage", SilverDustFault::OverVoltage},
       {"fault low_voltage", SilverDustFault::LowVoltage},
       {"fault moving_error", SilverDustFault::MovingError},
       {"fault holding_error", SilverDustFault::HoldingError}};
   const Command command = parse(text);
-  if (const auto fault = kFaults.find(text); fault != kFaults.end()) {
+  if (const auto fault = faults.find(text); fault != faults.end()) {
     drive.raise_fault(fault->second, now);
   } else if (command.is("power_cycle", 1)) {
     drive.power_cycle(now, host_duration(command.numbers[0]));

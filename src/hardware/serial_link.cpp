@@ -14,9 +14,7 @@ constexpr std::size_t kLongestLine = 200;
 
 SerialLink::SerialLink(const BusConfiguration& configuration, transport::SerialLine& line,
                        std::unique_ptr<BusDevice> device)
-    : BusLink(std::move(device)),
-      line_(line),
-      master_(configuration.name, configuration.serial.line) {}
+    : BusLink(std::move(device)), line_(line), master_(configuration.name, configuration.serial.line) {}
 
 void SerialLink::receive(const WireObserver& observer) {
   show_sent(observer);

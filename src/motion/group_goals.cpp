@@ -64,7 +64,7 @@ Expected<GoalAcceptance, Refusal> Group::replace_running(const trajectory::Goal&
 }
 
 GoalAcceptance Group::accept_stop(HostTime now) {
-  const GoalAcceptance acceptance{next_goal_++, GoalTime{0.0}, {}};
+  GoalAcceptance acceptance{next_goal_++, GoalTime{0.0}, {}};
   if (pending_) fail_pending("replaced by a stop", GoalOutcome::Preempted);
   if (in_motion()) stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a stop."}});
   stop_goals_.push_back(acceptance.id);

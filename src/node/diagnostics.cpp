@@ -84,7 +84,7 @@ void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status) {
   }
 }
 
-Diagnostics::Diagnostics(ros::NodeHandle node, const HardwareThread& hardware,
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const HardwareThread& hardware,
                          const hardware::Configuration& configuration, const WireLog* wire_log)
     : hardware_(hardware),
       updater_(node, node),

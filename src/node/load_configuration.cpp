@@ -13,7 +13,7 @@ namespace {
 
 YAML::Node read_parameters(const ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue value;
-  const std::string name = private_node.getNamespace();
+  const std::string& name = private_node.getNamespace();
   if (!private_node.getParam(name, value) || value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
     throw std::invalid_argument(fmt::format(
         "There are no parameters under {}; load a configuration there, as launch/driver.launch does.", name));

@@ -23,7 +23,7 @@ using Client = actionlib::SimpleActionClient<control_msgs::FollowJointTrajectory
 using Clock = std::chrono::steady_clock;
 using State = actionlib::SimpleClientGoalState;
 
-enum ExitCode { kSucceeded = 0, kBadInput = 2, kRejected = 3, kNotSucceeded = 4, kTimeout = 5 };
+enum ExitCode { Succeeded = 0, BadInput = 2, Rejected = 3, NotSucceeded = 4, Timeout = 5 };
 
 constexpr double kServerPatience = 60.0;  // s, bring-up of all drives included
 constexpr double kGoalPatience =
@@ -83,8 +83,8 @@ std::string ending(const State& state, const std::string& text) {
 }
 
 ExitCode exit_code(const State& state) {
-  if (state == State::SUCCEEDED) return kSucceeded;
-  return state == State::REJECTED ? kRejected : kNotSucceeded;
+  if (state == State::SUCCEEDED) return Succeeded;
+  return state == State::REJECTED ? Rejected : NotSucceeded;
 }
 
 ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& trajectory) {
@@ -98,7 +98,7 @@ ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& tr
   if (!wait_for_server(client, options.node, limited ? limit : after(kServerPatience))) {
     complain(
         fmt::format("no action server {}/follow_joint_trajectory; is the driver running?", options.node));
-    return kTimeout;
+    return Timeout;
   }
 
   Progress progress(length_of(trajectory));
@@ -125,7 +125,7 @@ ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& tr
     wait_until(
         after(2.0), [&] { return client.getState().isDone(); }, [] {});
     complain("no result in time; the goal is cancelled");
-    return kTimeout;
+    return Timeout;
   }
   if (client.getState() != State::REJECTED) print_report(ros_node, options.node);
   const auto result = client.getResult();  // none when the driver died meanwhile
@@ -145,13 +145,13 @@ int main(int argc, char** argv) {
     const Options options = parse_options(arguments);
     if (options.help) {
       std::fputs(usage().c_str(), stdout);
-      return kSucceeded;
+      return Succeeded;
     }
     const auto trajectory = read_goal_file(options.goal_file);
     ros::init(argc, argv, "trajectory_client", ros::init_options::AnonymousName);
     return send(options, trajectory);
   } catch (const std::exception& error) {
     complain(error.what());
-    return kBadInput;
+    return BadInput;
   }
 }

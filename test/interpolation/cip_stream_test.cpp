@@ -82,6 +82,7 @@ Recovery worst_recovery(int order, double lateness) {
 /// The `count` times newest, newest - T, ...
 std::vector<double> grid_nodes(double newest, int count) {
   std::vector<double> nodes;
+  nodes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) nodes.push_back(newest - i * kT);
   return nodes;
 }

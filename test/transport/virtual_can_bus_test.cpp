@@ -197,7 +197,7 @@ TEST_F(VirtualCanBusTest, BusOffLosesTheQueueAndRefusesFrames) {
 }
 
 TEST_F(VirtualCanBusTest, LoadIsCountedPerSecond) {
-  for (int i = 0; i < 1000; ++i) {
+  for (std::int64_t i = 0; i < 1000; ++i) {
     bus.host().send(frame(0x201), at_us(i * 1000));
     bus.process(at_us(i * 1000 + 999));
   }

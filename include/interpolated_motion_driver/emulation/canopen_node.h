@@ -27,9 +27,9 @@ struct NodeSettings {
   HostDuration sdo_response_time{};
 };
 
-/// The CANopen side of an emulated drive (CiA 301): power and boot, own crystal, NMT, SDO, PDO, EMCY, heartbeat
-/// and node guarding, and the objects 0x1000..0x1FFF. What the drive does beyond that, it does in the
-/// functions a derived class has to give.
+/// The CANopen side of an emulated drive (CiA 301): power and boot, own crystal, NMT, SDO, PDO, EMCY,
+/// heartbeat and node guarding, and the objects 0x1000..0x1FFF. What the drive does beyond that, it does in
+/// the functions a derived class has to give.
 class CanopenNode : private SdoObjects, private PdoOwner {
  public:
   ~CanopenNode() override = default;

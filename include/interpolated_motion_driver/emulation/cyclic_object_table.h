@@ -181,9 +181,9 @@ inline constexpr ObjectTable kCyclicTable{kCyclicObjects.data(), kCyclicObjects.
 /// Row of an object that is known to exist.
 template <std::uint16_t index, std::uint8_t subindex>
 inline constexpr std::size_t kCyclicObject = [] {
-  constexpr std::size_t slot = kCyclicTable.slot(index, subindex);
-  static_assert(slot < kCyclicObjects.size(), "no such object in the table");
-  return slot;
+  constexpr std::size_t kSlot = kCyclicTable.slot(index, subindex);
+  static_assert(kSlot < kCyclicObjects.size(), "no such object in the table");
+  return kSlot;
 }();
 
 }  // namespace interpolated_motion::emulation

@@ -221,9 +221,9 @@ constexpr std::size_t object_slot(std::uint16_t index, std::uint8_t subindex) {
 /// Row of an object that is known to exist.
 template <std::uint16_t index, std::uint8_t subindex>
 inline constexpr std::size_t kObject = [] {
-  constexpr std::size_t slot = object_slot(index, subindex);
-  static_assert(slot < kEposObjects.size(), "no such object in the table");
-  return slot;
+  constexpr std::size_t kSlot = object_slot(index, subindex);
+  static_assert(kSlot < kEposObjects.size(), "no such object in the table");
+  return kSlot;
 }();
 
 }  // namespace interpolated_motion::emulation

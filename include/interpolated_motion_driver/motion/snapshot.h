@@ -48,11 +48,11 @@ struct BusSnapshot {
   double load = 0.0;  ///< 0..1, over the last second
   std::uint64_t frames_sent = 0;
   std::uint64_t frames_received = 0;
-  std::uint64_t unexpected = 0;    ///< frames nobody was waiting for
-  bool usable = true;              ///< frames can travel: the interface is up, the port is open
-  std::string state;               ///< of interface or port, in one sentence with what to do
-  std::uint64_t error_frames = 0;  ///< reports of the CAN controller about a disturbed bus
-  std::uint64_t lost_frames = 0;   ///< frames the kernel had no room for, and frames never seen on the bus
+  std::uint64_t unexpected = 0;     ///< frames nobody was waiting for
+  bool usable = true;               ///< frames can travel: the interface is up, the port is open
+  std::string state;                ///< of interface or port, in one sentence with what to do
+  std::uint64_t error_frames = 0;   ///< reports of the CAN controller about a disturbed bus
+  std::uint64_t lost_frames = 0;    ///< frames the kernel had no room for, and frames never seen on the bus
   double sync_delay = 0.0;          ///< s, from the instant periodic SYNC is due to its end on the bus, mean
   double sync_jitter = 0.0;         ///< s, largest deviation from that in the last seconds
   std::uint64_t syncs_skipped = 0;  ///< not sent, since the host was too late

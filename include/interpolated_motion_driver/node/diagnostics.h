@@ -29,7 +29,7 @@ void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status);
 class Diagnostics {
  public:
   /// `wire_log` may be null. What is pointed to must live longer.
-  Diagnostics(ros::NodeHandle node, const HardwareThread& hardware,
+  Diagnostics(const ros::NodeHandle& node, const HardwareThread& hardware,
               const hardware::Configuration& configuration, const WireLog* wire_log);
 
  private:

@@ -101,7 +101,7 @@ TEST_F(IsochronousMaster, NeedsAPeriod) {
 }
 
 TEST_F(IsochronousMaster, DelayIsMeasuredFromTheGridToTheEndOnTheBus) {
-  for (int i = 1; i <= 200; ++i) {
+  for (std::int64_t i = 1; i <= 200; ++i) {
     sent_at(at_ms(10 * i));
     confirm(at_ms(10 * i) + microseconds(i % 2 == 0 ? 40 : 60));
   }
@@ -117,7 +117,7 @@ TEST(SyncTimingOf, NothingIsZero) {
 
 TEST(SyncTimingOf, OneLateSyncIsForgottenAfterTwoSeconds) {
   SyncTiming timing;
-  for (int i = 1; i <= 500; ++i) {
+  for (std::int64_t i = 1; i <= 500; ++i) {
     const HostTime due = at_ms(10 * i);
     timing.confirm(due, due + (i == 150 ? microseconds(3050) : microseconds(50)));
     if (i == 200) {

@@ -57,7 +57,7 @@ TEST(TimeStamp, IsOffUnlessAskedForAndComesWithEveryNthSync) {
   EXPECT_EQ(sync(none, at_us(10), at_us(60)), (Texts{"080#"}));
   Master third("can0", with_time_stamps(3));
   int stamps = 0;
-  for (int i = 1; i <= 9; ++i) {
+  for (std::int64_t i = 1; i <= 9; ++i) {
     const auto frames = sync(third, at_ms(10 * i), at_us(10'000 * i + 50));
     EXPECT_EQ(frames.size(), i % 3 == 0 ? 2u : 1u) << i;
     stamps += static_cast<int>(frames.size()) - 1;

@@ -24,8 +24,8 @@ struct SdoParameters {
   /// Longest wait for a reply. EPOS drives answer within a few milliseconds; most of this is for a host that
   /// stalls and a bus full of PDOs, all of which go first.
   HostDuration timeout = std::chrono::milliseconds(250);
-  std::uint8_t block_size = 127;     ///< segments per block asked for in a block upload, 1..127
-  std::size_t max_size = 64 * 1024;  ///< bytes; a longer upload is aborted with 0x05040005
+  std::uint8_t block_size = 127;  ///< segments per block asked for in a block upload, 1..127
+  std::size_t max_size = 65'536;  ///< bytes; a longer upload is aborted with 0x05040005
 };
 
 /// SDO client for one server (CiA 301, 7.2.4): upload and download, expedited, segmented and block. Sans-IO:

@@ -68,8 +68,8 @@ Request rio_request(std::uint8_t address);
 /// is NAK 6. Not repeatable: a lost ACK does not tell whether the segment is in the queue.
 Request imw_request(std::uint8_t address, std::int32_t time, std::int32_t position, std::int32_t acceleration,
                     std::int32_t velocity);
-/// Moves to `position` (counts); `acceleration` and `velocity` in the units of ordinary commands. Without a stop
-/// condition.
+/// Moves to `position` (counts); `acceleration` and `velocity` in the units of ordinary commands. Without a
+/// stop condition.
 Request mav_request(std::uint8_t address, std::int32_t position, std::int32_t acceleration,
                     std::int32_t velocity);
 Request ttp_request(std::uint8_t address);
