@@ -49,6 +49,7 @@ class World {
   /// valid.
   EposDrive& add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters);
 
+  /// The same for a drive in cyclic synchronous position mode.
   CyclicDrive& add_cyclic(transport::VirtualCanBus& bus, const CyclicParameters& parameters);
 
   /// A new serial line. Throws std::invalid_argument when the name is taken (by a line or a bus) or a
