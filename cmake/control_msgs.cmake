@@ -40,3 +40,11 @@ function(imd_add_source_space directory)
     file(APPEND ${CATKIN_DEVEL_PREFIX}/.catkin ";${directory}")
   endif()
 endfunction()
+
+# Tests run in the environment that catkin cached when it was found: before there was a folder of Python messages, or control_msgs.
+macro(imd_refresh_test_environment)
+  execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND} RESULT_VARIABLE imd_refresh_failed)
+  if(imd_refresh_failed)
+    message(FATAL_ERROR "the environment of the tests cannot be cached: ${GENERATE_ENVIRONMENT_CACHE_COMMAND}")
+  endif()
+endmacro()

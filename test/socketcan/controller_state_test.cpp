@@ -72,10 +72,11 @@ TEST_F(ControllerStateTest, AFrameReachesTheAdapterAndOneComesBack) {
   ASSERT_TRUE(bus.send(frame, read_host_clock()));
   EXPECT_TRUE(slcan.hears("t2012CAFE\r"));
   slcan.say("t1811A5\r");
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
   bool seen = false;
-  while (const auto received = bus.receive()) {
-    if (received->own) continue;
+  const HostTime end = read_host_clock() + std::chrono::seconds(10);
+  while (!seen && read_host_clock() < end) {
+    const auto received = bus.receive();
+    if (!received || received->own) continue;
     seen = true;
     EXPECT_EQ(received->frame.id, 0x181U);
     EXPECT_EQ(received->frame.length, 1);
