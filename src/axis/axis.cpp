@@ -22,6 +22,8 @@ const char* to_string(AxisState state) {
       return "moving";
     case AxisState::Stopping:
       return "stopping";
+    case AxisState::FaultStopping:
+      return "stopping with a fault";
     case AxisState::Fault:
       return "fault";
   }

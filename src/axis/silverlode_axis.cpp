@@ -86,6 +86,8 @@ AxisState SilverlodeAxis::state() const {
     case Phase::Emptying:
     case Phase::Disabling:
       return AxisState::Stopping;
+    case Phase::FaultBraking:
+      return AxisState::FaultStopping;
     case Phase::Fault:
       break;
   }
@@ -123,6 +125,8 @@ void SilverlodeAxis::run_phase(HostTime now) {
       return advance_when_done(Phase::Ready, now);
     case Phase::Disabling:
       return advance_when_done(Phase::Disabled, now);
+    case Phase::FaultBraking:
+      return poll_fault_braking(now);
     case Phase::Disabled:
     case Phase::Ready:
     case Phase::Loaded:
@@ -235,7 +239,8 @@ void SilverlodeAxis::look_at_drive(HostTime now) {
 
 HostDuration SilverlodeAxis::look_period() const {
   if (is_motion_phase()) return parameters_.status_period;
-  return phase_ == Phase::Fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;
+  const bool in_fault = phase_ == Phase::Fault || phase_ == Phase::FaultBraking;
+  return in_fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;
 }
 
 bool SilverlodeAxis::is_enabled() const {

@@ -50,6 +50,7 @@ double SilverlodeAxis::demand_at(HostTime when) const {
 }
 
 std::string SilverlodeAxis::state_text() const {
+  if (phase_ == Phase::FaultBraking) return "Stopping with a fault";
   if (phase_ == Phase::Fault || status_.polling.fault()) return "Fault";
   if (phase_ == Phase::Offline || phase_ == Phase::Probing) return "Offline";
   if (is_motion_phase()) return "Interpolated motion";

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "interpolated_motion_driver/axis/silverlode_axis.h"
 
@@ -63,16 +66,56 @@ void SilverlodeAxis::start_braking(HostTime now) {
 }
 
 void SilverlodeAxis::poll_braking(HostTime now) {
-  if (!sequence_done(now)) return;
+  if (sequence_.state() == CommandSequence::State::Failed) return fail_in_motion(sequence_.failure(), now);
+  if (sequence_.state() != CommandSequence::State::Done) return;
   clock_.stop();
   enter(Phase::Ready, now);
 }
 
-/// The host has found a fault while the drive may be moving: it is told to stop on its ramp.
+/// The host has found a fault while the drive may be moving. The axis is in fault for the group at once, but
+/// not at rest before the drive stands.
 void SilverlodeAxis::fail_in_motion(const std::string& reason, HostTime now) {
   fail(reason, now);
+  rest_due_ = now + longest_motion(now);
   clock_.stop();
-  device_.request(silverlode::stp_request(device_.address(), stop_deceleration()));
+  enter(Phase::FaultBraking, now);
+  start_fault_braking(now);
+}
+
+/// How long the drive goes on when it hears nothing more: through all that may be in its queue, and down the
+/// ramp of register 19.
+HostDuration SilverlodeAxis::longest_motion(HostTime now) const {
+  const double played = clock_.running() ? clock_.least_elapsed(now) : 0.0;
+  const double queued = std::max(0.0, feed_.latest_end() - played) * (1.0 + parameters_.max_clock_error);
+  const auto& limits = parameters_.limits;
+  const double ramp = parameters_.limit_margin * limits.max_velocity / limits.max_acceleration;
+  return host_duration(queued + ramp);
+}
+
+void SilverlodeAxis::start_fault_braking(HostTime now) {
+  const auto heard = [this](const Outcome& outcome) -> std::optional<std::string> {
+    if (outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused) return std::nullopt;
+    return device_.text(outcome);
+  };
+  sequence_.start(
+      {{silverlode::stp_request(device_.address(), stop_deceleration()), heard}, await_rest(kLooksAtFault)},
+      now);
+}
+
+/// A drive that does not answer is told again until its queue must be over and it has braked by itself.
+void SilverlodeAxis::poll_fault_braking(HostTime now) {
+  if (sequence_.running()) return;
+  const bool stands = sequence_.state() == CommandSequence::State::Done;
+  if (!stands && now < rest_due_) return start_fault_braking(now);
+  if (stands) {
+    fault_text_ += " The drive has come to rest.";
+  } else {
+    fault_text_ += fmt::format(
+        " The drive has not been seen at rest ({}); {:.1f} s after the fault its queue is over, and it has "
+        "braked by itself if it still works.",
+        sequence_.failure(), seconds(now - phase_since_));
+  }
+  enter(Phase::Fault, now);
 }
 
 }  // namespace interpolated_motion::axis

@@ -9,13 +9,18 @@ using axis::AxisState;
 
 namespace {
 
-bool is_faulted(const axis::Axis& axis) {
+bool is_out_of_order(const axis::Axis& axis) {
   return axis.state() == AxisState::Fault || axis.state() == AxisState::Offline;
+}
+
+/// Its drive may still be on its way to rest.
+bool is_faulted(const axis::Axis& axis) {
+  return axis.state() == AxisState::FaultStopping || is_out_of_order(axis);
 }
 
 /// The axis works towards nothing: it waits for a command.
 bool is_settled(const axis::Axis& axis) {
-  return axis.state() == AxisState::Disabled || axis.state() == AxisState::Ready || is_faulted(axis);
+  return axis.state() == AxisState::Disabled || axis.state() == AxisState::Ready || is_out_of_order(axis);
 }
 
 bool holds_motion(AxisState state) {
@@ -121,8 +126,8 @@ void Group::poll_settling(HostTime now) {
   enter_rest_state(now);
 }
 
-// Axes in fault stop by their own reaction; the others have been told to. The group is at rest when none
-// moves any more.
+// Axes with a fault stop by their own reaction or are being stopped; the others have been told to. The group
+// is at rest when none moves any more.
 void Group::poll_stopping(HostTime now) {
   if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
   if (ending_) finish_goal(*std::exchange(ending_, std::nullopt));
@@ -161,7 +166,7 @@ void Group::start_disabling(HostTime now) {
 
 void Group::reset(HostTime now) {
   for (axis::Axis* axis : axes_) {
-    if (is_faulted(*axis)) axis->reset_fault(now);
+    if (is_out_of_order(*axis)) axis->reset_fault(now);
   }
   enter(GroupState::Starting);
 }

@@ -18,12 +18,13 @@ enum class AxisState {
   Configuring,  ///< being found, identified, verified and parameterised
   Disabled,     ///< power stage off: enable()
   Enabling,
-  Ready,     ///< enabled, at rest, FIFO empty: plan(), load(), disable()
-  Loading,   ///< FIFO being emptied, filled and verified
-  Loaded,    ///< waits for arm()
-  Moving,    ///< the drive plays its FIFO
-  Stopping,  ///< brakes by its own deceleration, then empties its FIFO
-  Fault,     ///< the drive is in fault, or it did not do what it was told: reset_fault()
+  Ready,          ///< enabled, at rest, FIFO empty: plan(), load(), disable()
+  Loading,        ///< FIFO being emptied, filled and verified
+  Loaded,         ///< waits for arm()
+  Moving,         ///< the drive plays its FIFO
+  Stopping,       ///< brakes by its own deceleration, then empties its FIFO
+  FaultStopping,  ///< the host has found a fault and the drive may still be moving: ends in Fault
+  Fault,          ///< the drive is in fault, or it did not do what it was told: reset_fault()
 };
 
 const char* to_string(AxisState state);
@@ -87,8 +88,8 @@ class Axis {
   /// What was found: "Joint joint1 (can0 node 1): maxon EPOS2 70/10, firmware 0x2126, ...".
   virtual std::string description() const = 0;
   virtual AxisState state() const = 0;
-  /// Why the axis is Offline or in Fault, as one sentence with joint, bus, node and what to do. Empty
-  /// otherwise.
+  /// Why the axis is Offline, in Fault or FaultStopping, in sentences with joint, bus, node and what to do.
+  /// Empty otherwise.
   virtual const std::string& fault_text() const = 0;
 
   /// Does what is due at `now`.

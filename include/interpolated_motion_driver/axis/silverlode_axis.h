@@ -79,12 +79,15 @@ class SilverlodeAxis : public Axis {
     Braking,
     Emptying,
     Disabling,
+    FaultBraking,  ///< a fault was found in motion; told to stop until it stands or cannot move any more
     Fault,
   };
   using Steps = std::vector<CommandSequence::Step>;
 
   /// Looks at a drive that is to come to rest; about 12 s on a line at 57600 baud.
   static constexpr int kLooksAtStop = 1000;
+  /// The same where STP may have been lost or not obeyed: then it is sent again.
+  static constexpr int kLooksAtFault = 50;
 
   void run_phase(HostTime now);
   void poll_probing(HostTime now);
@@ -95,6 +98,7 @@ class SilverlodeAxis : public Axis {
   void poll_moving(HostTime now);
   void poll_ending(HostTime now);
   void poll_braking(HostTime now);
+  void poll_fault_braking(HostTime now);
   void advance_when_done(Phase next, HostTime now);
 
   // What is sent for what: silverlode_bring_up.cpp.
@@ -130,6 +134,8 @@ class SilverlodeAxis : public Axis {
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   void start_braking(HostTime now);
+  void start_fault_braking(HostTime now);
+  HostDuration longest_motion(HostTime now) const;
 
   encoding::ImsEncoding encoding() const;
   double drive_rate() const { return 1.0 + 1e-6 * clock_error_ppm_; }
@@ -158,6 +164,7 @@ class SilverlodeAxis : public Axis {
   HostTime bring_up_since_{};
   bool configured_ = false;
   std::string fault_text_;
+  HostTime rest_due_{};  ///< of a drive that hears nothing more since a fault was found
   std::string revision_;
   bool multi_register_ = true;
 
