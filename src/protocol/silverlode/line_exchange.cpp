@@ -90,10 +90,11 @@ void LineMaster::end_unanswered() {
 }
 
 void LineMaster::send_broadcast(HostTime now) {
-  const Request request = *broadcasts_.take();
-  last_sent_ = request.text;
+  const Broadcast broadcast = *broadcasts_.take();
+  last_sent_ = broadcast.request.text;
   parser_.reset();
-  free_at_ = now + characters_time(request.text.length()) + parameters_.guard;
+  sent_broadcast_ = {broadcast.id, now + characters_time(broadcast.request.text.length())};
+  free_at_ = sent_broadcast_.end + parameters_.guard;
   load_.add(now, free_at_);
 }
 

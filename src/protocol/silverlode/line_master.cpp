@@ -68,7 +68,7 @@ std::optional<std::string_view> LineMaster::peek_outgoing(HostTime now) {
   choose_next();
   switch (peeked_) {
     case Peeked::Broadcast:
-      return broadcasts_.front().text.view();
+      return broadcasts_.front().request.text.view();
     case Peeked::Control:
       return peeked_device_->next_control().request.text.view();
     case Peeked::Bulk:
@@ -135,8 +135,15 @@ std::optional<std::size_t> LineMaster::next_bulk_device() const {
   return next;
 }
 
-bool LineMaster::broadcast(const Request& request) {
-  return request.address == kGlobalAddress && request.text.complete() && broadcasts_.push(request);
+RequestId LineMaster::broadcast(const Request& request) {
+  if (request.address != kGlobalAddress || !request.text.complete()) return kNoRequest;
+  if (!broadcasts_.push({last_broadcast_ + 1, request})) return kNoRequest;
+  return ++last_broadcast_;
+}
+
+std::optional<HostTime> LineMaster::broadcast_end(RequestId id) const {
+  if (id == kNoRequest || id != sent_broadcast_.id) return std::nullopt;
+  return sent_broadcast_.end;
 }
 
 void LineMaster::clear_outgoing() {

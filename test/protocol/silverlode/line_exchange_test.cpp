@@ -133,13 +133,32 @@ TEST(LineExchange, BroadcastGoesFirstAndIsFollowedBySilence) {
   ScriptedLine line(healthy);
   DeviceLink& drive = line.master().add_device(16);
   drive.request(emd_request(16));
-  ASSERT_TRUE(line.master().broadcast(stp_request(kGlobalAddress, -1)));
-  EXPECT_FALSE(line.master().broadcast(stp_request(16, -1)));
+  ASSERT_NE(line.master().broadcast(stp_request(kGlobalAddress, -1)), kNoRequest);
+  EXPECT_EQ(line.master().broadcast(stp_request(16, -1)), kNoRequest);
   line.run_for(100 * kMs);
   ASSERT_EQ(line.sent_texts(), (std::vector<std::string>{"@255 3 -1", "@16 227"}));
   EXPECT_NEAR(to_us(line.sent()[1].begin), 10 * kC + 10000, 1);
   EXPECT_NEAR(seconds(line.master().exchange_time(stp_request(kGlobalAddress, -1))) * 1e6, 10 * kC + 10000,
               1);
+}
+
+TEST(LineExchange, BroadcastTellsWhenItWasOnTheLine) {
+  ScriptedLine line(healthy);
+  const RequestId first = line.master().broadcast(stp_request(kGlobalAddress, -1));
+  const RequestId second = line.master().broadcast(dmd_request(kGlobalAddress));
+  ASSERT_NE(first, kNoRequest);
+  ASSERT_NE(second, first);
+  EXPECT_FALSE(line.master().broadcast_end(first)) << "it has not left";
+  line.run_for(5 * kMs);
+  ASSERT_TRUE(line.master().broadcast_end(first));
+  EXPECT_NEAR(to_us(*line.master().broadcast_end(first)), 10 * kC, 1) << "@255 3 -1 and CR";
+  EXPECT_FALSE(line.master().broadcast_end(second));
+  line.run_for(100 * kMs);
+  ASSERT_TRUE(line.master().broadcast_end(second));
+  EXPECT_NEAR(to_us(*line.master().broadcast_end(second)), 10 * kC + 10000 + 9 * kC, 1)
+      << "after the silence";
+  EXPECT_FALSE(line.master().broadcast_end(first)) << "only the last is known";
+  EXPECT_FALSE(line.master().broadcast_end(kNoRequest));
 }
 
 // A two-wire line brings back what the host sends.
@@ -189,10 +208,11 @@ TEST(LineExchange, DroppedRequestsNeverReachTheLine) {
   drive.request(emd_request(16));
   drive.request(cis_request(16));
   drive.offer_bulk(imw_request(16, 1, 2, 3, 4), kNever);
-  line.master().broadcast(dmd_request(kGlobalAddress));
+  const RequestId broadcast = line.master().broadcast(dmd_request(kGlobalAddress));
   line.master().clear_outgoing();
   line.run_for(100 * kMs);
   EXPECT_TRUE(line.sent().empty());
+  EXPECT_FALSE(line.master().broadcast_end(broadcast));
   const std::vector<Outcome> outcomes = take_all(drive);
   ASSERT_EQ(outcomes.size(), 3u);
   for (const Outcome& outcome : outcomes) {

@@ -90,9 +90,12 @@ class LineMaster {
   bool idle() const { return !exchange_ && !something_waits(); }
 
   /// Sends a request to the global address to all drives, before everything else that waits. It is not
-  /// answered, and may be lost without notice. False when the queue of 8 is full or the request has another
-  /// address.
-  bool broadcast(const Request& request);
+  /// answered, and may be lost without notice. `kNoRequest`, and nothing queued, when the queue of 8 is full
+  /// or the request has another address.
+  RequestId broadcast(const Request& request);
+  /// When the last bit of a broadcast was on the line, computed. Empty as long as it has not left, and when
+  /// another one has left since.
+  std::optional<HostTime> broadcast_end(RequestId id) const;
 
   /// Ends all requests that wait with outcome `Dropped`, and forgets broadcasts. For a line
   /// that was down: a command of then must not reach a drive now. A request on the line goes on to its
@@ -162,7 +165,17 @@ class LineMaster {
   std::vector<DeviceLink*> in_order_;  ///< the devices as they were added
   HostTime now_{};                     ///< latest time given
 
-  canopen::Ring<Request> broadcasts_;
+  struct Broadcast {
+    RequestId id = kNoRequest;
+    Request request;
+  };
+  struct SentBroadcast {
+    RequestId id = kNoRequest;
+    HostTime end{};
+  };
+  canopen::Ring<Broadcast> broadcasts_;
+  RequestId last_broadcast_ = kNoRequest;
+  SentBroadcast sent_broadcast_;  ///< the last
   Peeked peeked_ = Peeked::None;
   DeviceLink* peeked_device_ = nullptr;
   std::size_t control_turn_ = 0;  ///< index into `in_order_` of the device whose control request goes next
