@@ -42,5 +42,53 @@ TEST(BusBudget, TimeBeforeTheStartIsFree) {
   EXPECT_FALSE(check_bus_budget({demand}, GoalTime{-1.0}));
 }
 
+/// One record of an axis.
+BusDemand record(double release, double deadline, double bus_time) {
+  return {{{GoalTime{release}, GoalTime{deadline}}}, bus_time};
+}
+
+// Both are waiting when the bus becomes free at 1.1 s. In the order of their release, or of the axes, the one
+// that is due at 1.5 s would end at 2.0 s.
+TEST(BusBudget, OfThoseThatWaitTheOneDueFirstIsSent) {
+  const std::vector<BusDemand> demands{record(0.1, 9.0, 1.0), record(0.2, 9.0, 0.5), record(0.3, 1.5, 0.4)};
+  EXPECT_FALSE(check_bus_budget(demands, GoalTime{0.0}));
+}
+
+// A record on the bus is not interrupted, and none is held back for one that is yet to come: whoever held the
+// first back for 0.3 s could carry both.
+TEST(BusBudget, ARecordOnTheBusIsNotInterrupted) {
+  const auto missed = check_bus_budget({record(0.1, 9.0, 1.0), record(0.2, 0.5, 0.2)}, GoalTime{0.0});
+  ASSERT_TRUE(missed);
+  EXPECT_NEAR(missed->time.count(), 0.5, 1e-12);
+  EXPECT_NEAR(missed->late.count(), 0.1 + 1.0 + 0.2 - 0.5, 1e-12);
+}
+
+// 1.2 s of bus between 0.1 s and 1.0 s: no order helps. What is said: when, by how much, how many.
+TEST(BusBudget, WhatNoOrderCarriesIsRefusedWithItsFigures) {
+  const std::vector<BusDemand> demands(3, record(0.1, 1.0, 0.4));
+  const auto missed = check_bus_budget(demands, GoalTime{0.0});
+  ASSERT_TRUE(missed);
+  EXPECT_NEAR(missed->time.count(), 1.0, 1e-12);
+  EXPECT_NEAR(missed->late.count(), 0.1 + 3 * 0.4 - 1.0, 1e-12);
+  EXPECT_EQ(missed->needed, 3.0);
+  EXPECT_FALSE(check_bus_budget({demands[0], demands[1]}, GoalTime{0.0})) << "two of them fit";
+}
+
+// Records of a second and more before are not counted as needed in the second before.
+TEST(BusBudget, NeededAreThoseOfTheSecondBefore) {
+  std::vector<BusDemand> demands{record(0.1, 0.9, 0.1)};
+  for (int i = 0; i < 4; ++i) demands.push_back(record(2.0, 2.5, 0.15));
+  const auto missed = check_bus_budget(demands, GoalTime{0.0});
+  ASSERT_TRUE(missed);
+  EXPECT_NEAR(missed->late.count(), 2.0 + 4 * 0.15 - 2.5, 1e-12);
+  EXPECT_EQ(missed->needed, 4.0);
+}
+
+// Each axis has its own bus time: a register-based queue takes five times as long as the other.
+TEST(BusBudget, RecordsOfDifferentAxesTakeDifferentTimes) {
+  EXPECT_FALSE(check_bus_budget({axis(0.1, 10.0, 1, 0.05), axis(0.1, 10.0, 1, 0.01)}, GoalTime{0.0}));
+  EXPECT_TRUE(check_bus_budget({axis(0.1, 10.0, 1, 0.05), axis(0.1, 10.0, 1, 0.06)}, GoalTime{0.0}));
+}
+
 }  // namespace
 }  // namespace interpolated_motion::motion
