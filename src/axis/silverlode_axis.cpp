@@ -45,10 +45,11 @@ std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& p
 }  // namespace
 
 SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
-                               silverlode::DeviceLink& device)
+                               silverlode::DeviceLink& device, LineStart* common_start)
     : parameters_(std::move(parameters)),
       line_(line),
       device_(device),
+      common_start_(common_start),
       sequence_(device),
       status_(device, parameters_.transmission),
       clock_(parameters_.max_clock_error, 0.5 * seconds(parameters_.execution_time),
@@ -58,6 +59,7 @@ SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");
   encoding().validate();
+  if (common_start_ != nullptr) start_member_ = common_start_->join();
 }
 
 AxisState SilverlodeAxis::state() const {
@@ -79,6 +81,7 @@ AxisState SilverlodeAxis::state() const {
     case Phase::Loaded:
       return AxisState::Loaded;
     case Phase::Starting:
+    case Phase::Verifying:
     case Phase::Moving:
     case Phase::Ending:
       return AxisState::Moving;
@@ -115,6 +118,8 @@ void SilverlodeAxis::run_phase(HostTime now) {
       return poll_filling(now);
     case Phase::Starting:
       return poll_starting(now);
+    case Phase::Verifying:
+      return poll_verifying(now);
     case Phase::Moving:
       return poll_moving(now);
     case Phase::Ending:
@@ -250,6 +255,7 @@ bool SilverlodeAxis::is_enabled() const {
     case Phase::Filling:
     case Phase::Loaded:
     case Phase::Starting:
+    case Phase::Verifying:
     case Phase::Moving:
     case Phase::Ending:
     case Phase::Braking:
@@ -296,6 +302,7 @@ void SilverlodeAxis::fail(const std::string& reason, HostTime now) {
   delivery_->give_up();
   device_.drop_requests();
   sequence_.cancel();
+  withdraw_start();
   enter(Phase::Fault, now);
 }
 

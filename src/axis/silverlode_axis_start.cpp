@@ -118,7 +118,12 @@ void SilverlodeAxis::arm(HostTime begin, HostTime now) {
   }
   begin_ = begin;
   enter(Phase::Starting, now);
+  if (common_start_ != nullptr) return common_start_->ask(start_member_);
   start_id_ = device_.request(silverlode::ims_request(device_.address(), parameters_.ims_arguments));
+}
+
+void SilverlodeAxis::withdraw_start() {
+  if (common_start_ != nullptr) common_start_->withdraw(start_member_);
 }
 
 // Without an answer to IMS it is not known whether the drive has begun; it only waits so far, so it is
@@ -127,12 +132,39 @@ void SilverlodeAxis::take_start(const Outcome& outcome, HostTime now) {
   if (phase_ != Phase::Starting) return;
   if (!outcome.accepted()) return fail_in_motion(device_.text(outcome), now);
   clock_.start(outcome.request_end + parameters_.execution_time / 2);
-  enter(Phase::Moving, now);
-  make_second_wait(now);
+  begin_motion(now);
 }
 
 void SilverlodeAxis::poll_starting(HostTime now) {
-  if (expired(now, kFillTimeout)) fail_in_motion("IMS does not get over the line", now);
+  if (expired(now, kFillTimeout)) return fail_in_motion("IMS does not get over the line", now);
+  const auto sent = common_start_ != nullptr ? common_start_->sent() : std::nullopt;
+  if (!sent) return;
+  clock_.start(*sent + parameters_.execution_time / 2);
+  enter(Phase::Verifying, now);
+  sequence_.start({check_begun()}, now);
+}
+
+// A command to all drives is not answered: whether this one has heard and obeyed it shows in what it does.
+CommandSequence::Step SilverlodeAxis::check_begun() {
+  return {silverlode::rio_request(device_.address()),
+          [this](const Outcome& outcome) -> std::optional<std::string> {
+            if (!outcome.accepted()) return device_.text(outcome);
+            if (silverlode::IoStatus{outcome.word().value_or(0)}.trajectory_active()) return std::nullopt;
+            return fmt::format(
+                "the drive has not started at {}. If it never does, set `start` of the bus to "
+                "`addressed`",
+                common_start_->text());
+          }};
+}
+
+void SilverlodeAxis::poll_verifying(HostTime now) {
+  if (sequence_.state() == CommandSequence::State::Failed) return fail_in_motion(sequence_.failure(), now);
+  if (sequence_.state() == CommandSequence::State::Done) begin_motion(now);
+}
+
+void SilverlodeAxis::begin_motion(HostTime now) {
+  enter(Phase::Moving, now);
+  make_second_wait(now);
 }
 
 /// The waiting that is left until the path begins, by what the drive's clock is known to do.

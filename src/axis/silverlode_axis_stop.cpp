@@ -14,8 +14,10 @@ using silverlode::Outcome;
 
 void SilverlodeAxis::stop(HostTime now) {
   delivery_->give_up();
+  withdraw_start();
   switch (phase_) {
     case Phase::Starting:
+    case Phase::Verifying:
     case Phase::Moving:
       enter(Phase::Braking, now);
       return start_braking(now);

@@ -238,10 +238,23 @@ void Assembly::add_silverlode(const Configuration& configuration, const DriveCon
   const std::size_t index = axes_.size();
   const BusConfiguration& bus = bus_configurations_.at(drive.bus);
   const double lead = start_lead(bus, configuration, link.master());
-  axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
-      silverlode_parameters(configuration, drive, bus.max_load, lead), link.master(), device));
+  axes_.push_back(
+      std::make_unique<axis::SilverlodeAxis>(silverlode_parameters(configuration, drive, bus.max_load, lead),
+                                             link.master(), device, common_start(drive)));
   audits_.emplace_back(drive.transmission, *axes_.back());
   if (virtual_lines_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_silverlode(drive, index);
+}
+
+/// Null where each drive of the line is started by itself. All drives of a line have the same arguments of
+/// IMS.
+axis::LineStart* Assembly::common_start(const DriveConfiguration& drive) {
+  if (bus_configurations_.at(drive.bus).serial.start != LineStartKind::Global) return nullptr;
+  auto& start = line_starts_[drive.bus];
+  if (!start) {
+    start = std::make_unique<axis::LineStart>(serial_links_.at(drive.bus)->master(),
+                                              drive.silverlode.ims_arguments);
+  }
+  return start.get();
 }
 
 void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t index) {

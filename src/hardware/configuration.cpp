@@ -267,6 +267,21 @@ void check_nodes(const Configuration& configuration) {
   }
 }
 
+/// One command starts all drives of a line: it has one set of arguments.
+void check_common_starts(const Configuration& configuration) {
+  std::map<std::string, const DriveConfiguration*> first_of;
+  for (const DriveConfiguration& drive : configuration.drives) {
+    if (bus_of(drive, configuration).serial.start != LineStartKind::Global) continue;
+    const DriveConfiguration& first = *first_of.insert({drive.bus, &drive}).first->second;
+    if (drive.silverlode.ims_arguments == first.silverlode.ims_arguments) continue;
+    throw std::invalid_argument(fmt::format(
+        "Parameter drives/{}/ims_arguments is \"{}\", that of joint {} is \"{}\": with buses/{}/start: "
+        "global "
+        "one command starts both. Give all drives of the bus the same, or set start to addressed.",
+        drive.joint, drive.silverlode.ims_arguments, first.joint, first.silverlode.ims_arguments, drive.bus));
+  }
+}
+
 /// Bits that flow between host and drive at each SYNC: of an EPOS a position and a buffer report, and a tenth
 /// of a demand report.
 double bits_per_sync(const DriveConfiguration& drive, const BusConfiguration& bus) {
@@ -366,6 +381,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const Urdf& urdf
   for (const std::string& key : node_keys) reader.ignore(key);
   reader.refuse_unknown();
   check_nodes(configuration);
+  check_common_starts(configuration);
   check_devices(configuration);
   mark_isochronous_buses(configuration);
   check_background_load(configuration);

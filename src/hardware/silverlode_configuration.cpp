@@ -136,6 +136,9 @@ void parse_serial_line(ParameterReader& reader, BusConfiguration& bus) {
   bus.serial.wiring = reader.choice(
       "wiring", bus.serial.wiring,
       {{"rs485", transport::SerialWiring::Rs485TwoWire}, {"rs232", transport::SerialWiring::Rs232MultiDrop}});
+  bus.serial.start =
+      reader.choice("start", bus.serial.start,
+                    {{"addressed", LineStartKind::Addressed}, {"global", LineStartKind::Global}});
   bus.serial.start_lead = reader.number("start_lead", bus.serial.start_lead, 0.05, 10.0);
   bus.max_load = reader.number("max_load", 0.85, 0.01, 0.95);
 }

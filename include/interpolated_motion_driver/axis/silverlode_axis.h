@@ -7,6 +7,7 @@
 
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/command_sequence.h"
+#include "interpolated_motion_driver/axis/line_start.h"
 #include "interpolated_motion_driver/axis/playback_clock.h"
 #include "interpolated_motion_driver/axis/segment_delivery.h"
 #include "interpolated_motion_driver/axis/segment_feed.h"
@@ -27,9 +28,10 @@ namespace interpolated_motion::axis {
 /// with register 19. How a segment gets into the drive is SegmentDelivery's matter.
 class SilverlodeAxis : public Axis {
  public:
+  /// `common_start`: what starts the drives of the line together; null when each gets an IMS of its own. It,
   /// `line` and `device` must outlive the axis. Throws std::invalid_argument, naming joint and parameter.
   SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
-                 silverlode::DeviceLink& device);
+                 silverlode::DeviceLink& device, LineStart* common_start = nullptr);
 
   const std::string& joint() const override { return parameters_.joint; }
   const std::string& bus() const override { return line_.line_name(); }
@@ -73,7 +75,8 @@ class SilverlodeAxis : public Axis {
     Clearing,
     Filling,  ///< the first segment is on its way
     Loaded,
-    Starting,  ///< IMS is on its way
+    Starting,   ///< IMS is on its way
+    Verifying,  ///< IMS was sent to all drives of the line: has this one begun?
     Moving,
     Ending,  ///< played; looks where the drive has stopped
     Braking,
@@ -95,6 +98,7 @@ class SilverlodeAxis : public Axis {
   void poll_clearing(HostTime now);
   void poll_filling(HostTime now);
   void poll_starting(HostTime now);
+  void poll_verifying(HostTime now);
   void poll_moving(HostTime now);
   void poll_ending(HostTime now);
   void poll_braking(HostTime now);
@@ -120,6 +124,9 @@ class SilverlodeAxis : public Axis {
 
   void take_outcomes(HostTime now);
   void take_start(const silverlode::Outcome& outcome, HostTime now);
+  void withdraw_start();
+  CommandSequence::Step check_begun();
+  void begin_motion(HostTime now);
 
   std::vector<RecordSlot> slots_of(const encoding::ImsStream& stream, GoalTime start) const;
   void make_second_wait(HostTime now);
@@ -142,7 +149,9 @@ class SilverlodeAxis : public Axis {
   double tick() const { return parameters_.scale.tick; }
   double demand_at(HostTime when) const;
   std::string state_text() const;
-  bool is_motion_phase() const { return phase_ == Phase::Starting || phase_ == Phase::Moving; }
+  bool is_motion_phase() const {
+    return phase_ == Phase::Starting || phase_ == Phase::Verifying || phase_ == Phase::Moving;
+  }
   bool is_enabled() const;
   void enter(Phase phase, HostTime now);
   bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
@@ -155,6 +164,8 @@ class SilverlodeAxis : public Axis {
   SilverlodeAxisParameters parameters_;
   silverlode::LineMaster& line_;
   silverlode::DeviceLink& device_;
+  LineStart* common_start_;
+  std::size_t start_member_ = 0;  ///< of common_start_
   CommandSequence sequence_;
   SilverlodeStatus status_;
 

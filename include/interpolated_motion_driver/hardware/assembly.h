@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/line_start.h"
 #include "interpolated_motion_driver/emulation/world.h"
 #include "interpolated_motion_driver/hardware/bus_link.h"
 #include "interpolated_motion_driver/hardware/can_link.h"
@@ -63,6 +64,7 @@ class Assembly {
   void emulate_epos(const DriveConfiguration& drive, std::size_t index);
   void emulate_silverlode(const DriveConfiguration& drive, std::size_t index);
   void emulate_cyclic(const DriveConfiguration& drive, std::size_t index);
+  axis::LineStart* common_start(const DriveConfiguration& drive);
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;
@@ -70,6 +72,7 @@ class Assembly {
   std::map<std::string, BusConfiguration> bus_configurations_;
   std::map<std::string, CanLink*> can_links_;
   std::map<std::string, SerialLink*> serial_links_;
+  std::map<std::string, std::unique_ptr<axis::LineStart>> line_starts_;
   std::map<std::string, transport::VirtualCanBus*> virtual_can_buses_;
   std::map<std::string, transport::VirtualSerialLine*> virtual_lines_;
   std::vector<std::unique_ptr<BusLink>> links_;

@@ -44,10 +44,17 @@ struct SerialPortConfiguration {
   bool rs485 = false;       ///< let the UART switch the direction by RTS
 };
 
+/// How the drives of a serial line are started.
+enum class LineStartKind {
+  Addressed,  ///< each by a command of its own
+  Global,     ///< all by one command to the global address
+};
+
 /// What only serial lines have.
 struct SerialLineConfiguration {
   silverlode::LineParameters line;
   transport::SerialWiring wiring = transport::SerialWiring::Rs485TwoWire;  ///< of an emulated line
+  LineStartKind start = LineStartKind::Addressed;
   double start_lead =
       0.15;  ///< s, and kLeadOfDrive more for each drive: from the start command to the motion
 };
