@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include <fmt/format.h>
@@ -158,6 +159,50 @@ TEST_P(RefusalOfTheStart, IsNamedAndNothingMoves) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Codes, RefusalOfTheStart, testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+
+// ---- lines that are no answer
+
+struct StrangeLine {
+  const char* name;
+  std::string text;
+  const char* in_the_log;
+
+  friend std::ostream& operator<<(std::ostream& out, const StrangeLine& line) { return out << line.name; }
+};
+
+class StrangeLines : public FaultInMotion, public testing::WithParamInterface<StrangeLine> {};
+
+// Ten times in a goal, on a line whose wires are apart: what the drives receive is as it was sent. Mostly
+// they meet the silence between two exchanges or garble an answer that is asked for again; where they garble
+// the answer to a segment, the group stops and says so.
+TEST_P(StrangeLines, AreToldAndNeverTakenForAnAnswer) {
+  move(six_axis_silverlode("{buses: {line0: {wiring: rs232}}}"), 0.5);
+  for (int i = 0; i < 10 && scenario->state() == GroupState::Moving; ++i) {
+    inject("line0", "garbage " + GetParam().text);
+    scenario->run(0.2 + 0.0037 * i);
+  }
+  const auto result = scenario->result_of(goal);
+  for (const auto& joint : scenario->driver().report().joints)
+    EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
+  if (result.outcome != GoalOutcome::Succeeded) {
+    EXPECT_TRUE(contains(result.text, "cannot be known")) << result.text;
+  }
+  bool told = false;
+  for (const std::string& line : scenario->log()) told = told || contains(line, GetParam().in_the_log);
+  EXPECT_TRUE(told);
+}
+
+const StrangeLine kStrangeLines[] = {
+    {"Garbage", "xyz!*\r", "line0: a line that is no reply"},
+    {"OverLong", "# 10 000C" + std::string(300, '0') + "\r", "line0: a line that is no reply"},
+    {"Truncated", "# 10 00", "line0: a line that is no reply"},
+    {"OtherAddress", "* 63\r", "line0: a reply "},
+    {"OtherCommand", "# 10 00C8 0001\r", "line0: a reply "},
+    {"OtherRefusal", "! 10 00C8 0001\r", "line0: a reply "},
+};
+
+INSTANTIATE_TEST_SUITE_P(Lines, StrangeLines, testing::ValuesIn(kStrangeLines),
+                         [](const testing::TestParamInfo<StrangeLine>& line) { return line.param.name; });
 
 // ---- drives and parameters that do not fit
 
