@@ -45,6 +45,8 @@ EposAxis::EposAxis(EposAxisParameters parameters, canopen::Master& master, canop
       controlword_(master, node, epos_pdo::kControlwordRpdo) {
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");
+  node_.set_sync_answer(epos_pdo::kMotionTpdo);
+  node_.set_sync_answer(epos_pdo::kBufferTpdo);
   node_.set_tpdo_handler(
       [this](int number, const canopen::Frame& frame, HostTime time) { on_tpdo(number, frame, time); });
 }

@@ -42,6 +42,10 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   return p;
 }
 
+/// Longest that a SYNC is put off: short enough that a drive which has fallen silent does not keep the others
+/// from reporting before its heartbeat is missed.
+HostDuration sync_patience(const MasterParameters& p) { return p.heartbeat_timeout / 4; }
+
 /// Time a bulk frame of the worst case takes at the share of the bus that bulk frames may use.
 HostDuration bulk_interval(const MasterParameters& p) {
   return HostDuration(std::llround(kWorstCaseBits * 1e9 / (p.max_bulk_load * p.bitrate)));
@@ -83,9 +87,21 @@ void Master::poll(HostTime now) {
 
 void Master::queue_periodic_sync() {
   if (parameters_.isochronous && sync_.missed() > 0) return sync_timing_.skip(sync_.missed() + 1);
-  if (periodic_sync_queued_) return;
+  if (periodic_sync_queued_ || waits_for_last_sync()) return;
   collect_sdo();
   periodic_sync_queued_ = push_control({sync_frame(), Kind::PeriodicSync, 0, sync_.last_due()});
+}
+
+bool Master::waits_for_last_sync() {
+  if (parameters_.isochronous) return false;
+  if (syncs_since_confirmation_ > 0) return now_ - sync_given_ < sync_patience(parameters_);
+  const bool late = now_ - last_sync_time_ >= sync_patience(parameters_);
+  bool missing = false;
+  for (NodeLink* node : in_order_) {
+    if (late) node->sync_answers_.give_up();
+    missing = missing || node->sync_answers_.missing();
+  }
+  return missing;
 }
 
 void Master::drop_late_sync(HostTime now) {
@@ -175,6 +191,7 @@ void Master::pop_outgoing(HostTime now) {
     const Kind kind = control_.front().kind;
     if (kind == Kind::PeriodicSync || kind == Kind::RequestedSync) {
       ++syncs_since_confirmation_;
+      sync_given_ = now;
       timed_sync_ = kind == Kind::PeriodicSync ? control_.front().due : kNever;
     }
     release_control();
@@ -200,6 +217,7 @@ void Master::clear_outgoing() {
   while (!control_.empty()) release_control();
   for (NodeLink* node : in_order_) node->clear_records();
   time_stamp_.reset();
+  syncs_since_confirmation_ = 0;
   peeked_ = Peeked::None;
 }
 

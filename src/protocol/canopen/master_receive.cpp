@@ -54,6 +54,7 @@ void Master::on_own_frame(const ReceivedFrame& received) {
 void Master::confirm_sync(HostTime time) {
   last_sync_time_ = time;
   ++syncs_confirmed_;
+  for (NodeLink* node : in_order_) node->sync_answers_.on_sync();
   if (timed_sync_ != kNever) sync_timing_.confirm(std::exchange(timed_sync_, kNever), time);
   const bool is_last = std::exchange(syncs_since_confirmation_, 0) == 1;
   time_stamp_.reset();
@@ -93,6 +94,7 @@ void Master::deliver(NodeLink& node, const CobIdMeaning& meaning, const Received
     if (!state) return count(UnexpectedFrame::Malformed, received);
     return node.heartbeat_.on_heartbeat(*state, received.time);
   }
+  if (valid_pdo_number(meaning.pdo)) node.sync_answers_.on_tpdo(meaning.pdo);
   if (node.tpdo_handler_) node.tpdo_handler_(meaning.pdo, received.frame, received.time);
 }
 

@@ -63,9 +63,15 @@ struct UnexpectedFrames {
 /// by it (object 0x1013). A time stamp goes before everything else that waits, since a drive takes it for
 /// that of the last SYNC; it is left out when the next SYNC is under way already.
 ///
+/// A periodic SYNC is left out while the one before is still on its way to the bus or an answer to it has not
+/// come (NodeLink::set_sync_answer), a quarter of `heartbeat_timeout` at most. So a bus that has stood still
+/// goes on with one SYNC, not with all those due meanwhile, and an answer that comes late, from a slow drive
+/// or over a full bus, is not taken for the answer to a later SYNC: it would put a drive's old position to a
+/// new instant.
+///
 /// An `isochronous` bus has drives that take one setpoint per SYNC and interpolate between two of them. A
 /// SYNC off its grid would make them take a setpoint at a wrong instant: there is none on request (the next
-/// periodic one serves), and one that is late by more than half a period is left out.
+/// periodic one serves), one that is late by more than half a period is left out, and none waits for another.
 ///
 /// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
 /// made. Bulk frames
@@ -159,6 +165,7 @@ class Master {
   NodeLink* next_bulk_node();
   void release_control();
   void queue_periodic_sync();
+  bool waits_for_last_sync();
   void drop_late_sync(HostTime now);
   void confirm_sync(HostTime time);
 
@@ -187,6 +194,7 @@ class Master {
   SyncProducer sync_;
   SyncTiming sync_timing_;
   HostTime timed_sync_ = kNever;  ///< when the periodic SYNC that is on its way was due; kNever: none is
+  HostTime sync_given_{};         ///< when the transport took the last SYNC
   HostTime last_sync_time_{};
   std::uint64_t syncs_confirmed_ = 0;
   int syncs_since_confirmation_ = 0;  ///< given to the transport since the last confirmation of one

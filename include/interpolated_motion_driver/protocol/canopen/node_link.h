@@ -13,6 +13,7 @@
 #include "interpolated_motion_driver/protocol/canopen/nmt.h"
 #include "interpolated_motion_driver/protocol/canopen/ring.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_client.h"
+#include "interpolated_motion_driver/protocol/canopen/sync_answers.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::canopen {
@@ -46,6 +47,10 @@ class NodeLink {
   /// Sets who receives the TPDOs. To be set once, before frames flow; the receiver must outlive the bus
   /// traffic.
   void set_tpdo_handler(TpdoHandler handler) { tpdo_handler_ = std::move(handler); }
+
+  /// TPDO `n` (1..4) is the answer of this node to every SYNC: the master then knows to which one, since it
+  /// waits for all answers before the next periodic SYNC. To be set once, before frames flow.
+  void set_sync_answer(int n) { sync_answers_.expect(n); }
 
   /// NMT command to this node, in the control queue. False when the queue is full.
   bool send_nmt(NmtCommand command);
@@ -87,6 +92,7 @@ class NodeLink {
   Ring<Emcy> emergencies_;
   std::uint64_t emergencies_lost_ = 0;
   TpdoHandler tpdo_handler_;
+  SyncAnswers sync_answers_;
   Ring<Frame> records_;
   std::array<Confirmed, kPdosOfNode> confirmed_{};
 };
