@@ -12,17 +12,19 @@ namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr int kHostPort = 0;
-/// A drive answers at one of its next samples: while frames come or go, the drives are looked after that
-/// often, else as often as they have something to say by themselves (heartbeats, emergencies).
+/// A drive answers at one of its next samples, and the answers of all drives to a SYNC take some milliseconds
+/// on the bus: so long after a frame the drives are looked after that often, else as often as they have
+/// something to say by themselves (heartbeats, emergencies).
 constexpr HostDuration kAttentiveWait = std::chrono::milliseconds(2);
 constexpr HostDuration kIdleWait = std::chrono::milliseconds(10);
-constexpr HostDuration kAttentive = std::chrono::milliseconds(10);
+constexpr HostDuration kAttentive = std::chrono::milliseconds(4);
 constexpr double kSample = 1e-3;  // s
 
 transport::SocketcanParameters interface_parameters(const CanDrives& list) {
   transport::SocketcanParameters parameters;
   parameters.interface = list.interface;
   parameters.bitrate = list.bitrate;
+  parameters.confirmed = false;
   return parameters;
 }
 
@@ -100,7 +102,6 @@ void CanServer::take_frames() {
   while (bus_.free_slots(kHostPort) > 0) {
     const auto received = interface_.receive();
     if (!received) return;
-    if (received->own) continue;
     bus_.host().send(received->frame, received->time);
     last_frame_ = received->time;
   }

@@ -19,9 +19,6 @@
 namespace interpolated_motion::transport {
 namespace {
 
-/// A stamp further back than this is not believed: the wall clock was set meanwhile.
-constexpr HostDuration kOldestStamp = std::chrono::seconds(60);
-
 [[noreturn]] void fail(const char* what) {
   throw boost::system::system_error(errno, boost::system::system_category(), what);
 }
@@ -50,10 +47,11 @@ void set_buffers(int fd, int receive_buffer, int send_buffer) {
   if (send_buffer > 0) set_option(fd, SOL_SOCKET, SO_SNDBUF, send_buffer, "SO_SNDBUF");
 }
 
-void set_options(int fd) {
+void set_options(int fd, bool own_frames) {
   constexpr int kOn = 1;
+  const int own = own_frames ? 1 : 0;
   constexpr can_err_mask_t kAllErrors = CAN_ERR_MASK;
-  set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, kOn, "CAN_RAW_RECV_OWN_MSGS");
+  set_option(fd, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own, "CAN_RAW_RECV_OWN_MSGS");
   set_option(fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kAllErrors, "CAN_RAW_ERR_FILTER");
   set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, kOn, "SO_RXQ_OVFL");
   set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, kOn, "SO_TIMESTAMPNS");
@@ -82,19 +80,6 @@ canopen::Frame from_kernel(const can_frame& raw) {
   frame.length = std::min<std::uint8_t>(raw.can_dlc, CAN_MAX_DLEN);
   if (!frame.remote) std::copy_n(raw.data, frame.length, frame.data.begin());
   return frame;
-}
-
-/// Both clocks at one instant.
-struct Clocks {
-  HostTime host = read_host_clock();
-  HostDuration wall = read_wall_clock();
-};
-
-/// The wall clock may have been set since the stamp was taken: an age that cannot be is taken as none.
-HostTime host_time_of(HostDuration wall_stamp, const Clocks& now) {
-  const HostDuration age = now.wall - wall_stamp;
-  const bool credible = age >= HostDuration::zero() && age < kOldestStamp;
-  return now.host - (credible ? age : HostDuration::zero());
 }
 
 struct Ancillary {
@@ -152,10 +137,10 @@ int open_socket() {
 }  // namespace
 
 CanSocket::CanSocket(boost::asio::io_context& io, int interface_index, const std::vector<Filter>& filters,
-                     int receive_buffer, int send_buffer)
+                     int receive_buffer, int send_buffer, bool own_frames)
     : descriptor_(io, open_socket()) {
   const int fd = descriptor_.native_handle();
-  set_options(fd);
+  set_options(fd, own_frames);
   set_filters(fd, filters);
   set_buffers(fd, receive_buffer, send_buffer);
   bind_to(fd, interface_index);
@@ -202,7 +187,10 @@ void CanSocket::fill() {
     batch_[filled_++] = Received{{}, 0, {}, true};
     return;
   }
-  const Clocks now;
+  const HostTime before = read_host_clock();
+  const HostDuration wall = read_wall_clock();
+  const HostTime now = read_host_clock();
+  wall_clock_.measure(before, wall, now);
   filled_ = static_cast<std::size_t>(count);
   drained_ = filled_ < kBatch;
   for (std::size_t i = 0; i < filled_; ++i) {
@@ -210,8 +198,8 @@ void CanSocket::fill() {
     const can_frame& raw = messages.frames[i];
     const Ancillary ancillary = read_ancillary(header);
     // Stamps may come from several processors: time must not run back.
-    last_time_ =
-        std::max(last_time_, ancillary.wall_stamp ? host_time_of(*ancillary.wall_stamp, now) : now.host);
+    const HostTime time = ancillary.wall_stamp ? wall_clock_.host_time_of(*ancillary.wall_stamp) : now;
+    last_time_ = std::max(last_time_, time);
     const bool is_error = (raw.can_id & CAN_ERR_FLAG) != 0;
     const bool own = (header.msg_flags & MSG_CONFIRM) != 0;
     batch_[i] = Received{{from_kernel(raw), last_time_, own},

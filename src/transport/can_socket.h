@@ -11,11 +11,12 @@
 #include <boost/asio/posix/stream_descriptor.hpp>
 
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
+#include "interpolated_motion_driver/transport/wall_clock_offset.h"
 
 namespace interpolated_motion::transport {
 
-/// A CAN_RAW socket bound to one interface (linux/can/raw.h): the system calls of SocketcanBus. It hears its
-/// own frames once they have been sent, and error frames.
+/// A CAN_RAW socket bound to one interface (linux/can/raw.h): the system calls of SocketcanBus. It hears
+/// error frames and, if so opened, its own frames once they have been sent.
 class CanSocket {
  public:
   enum class SendResult {
@@ -42,7 +43,7 @@ class CanSocket {
 
   /// Opens and binds. `filters` empty: every frame. Throws boost::system::system_error.
   CanSocket(boost::asio::io_context& io, int interface_index, const std::vector<Filter>& filters,
-            int receive_buffer, int send_buffer);
+            int receive_buffer, int send_buffer, bool own_frames);
 
   SendResult send(const canopen::Frame& frame);
   /// The next one there is. When it returns none, all that was there at the latest look at the kernel has
@@ -67,6 +68,7 @@ class CanSocket {
 
   boost::asio::posix::stream_descriptor descriptor_;
   std::uint32_t dropped_ = 0;
+  WallClockOffset wall_clock_;
   HostTime last_time_{};
   std::array<Received, kBatch> batch_;
   std::size_t read_ = 0;

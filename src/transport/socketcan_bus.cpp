@@ -100,7 +100,8 @@ void SocketcanBus::Implementation::refresh() {
 
 void SocketcanBus::Implementation::open() {
   try {
-    socket.emplace(io, interface->index, filters_, parameters.receive_buffer, parameters.send_buffer);
+    socket.emplace(io, interface->index, filters_, parameters.receive_buffer, parameters.send_buffer,
+                   parameters.confirmed);
   } catch (const boost::system::system_error& error) {
     return leave(SocketcanState::Unusable, open_error_text(parameters.interface, error.code()));
   }
@@ -154,7 +155,11 @@ bool SocketcanBus::Implementation::send(const canopen::Frame& frame, HostTime no
   switch (socket->send(frame)) {
     case CanSocket::SendResult::Taken:
       blocked = false;
-      if (hears(frame) && in_flight++ == 0) last_progress = now;
+      if (!parameters.confirmed) {
+        ++counters.sent;
+      } else if (hears(frame) && in_flight++ == 0) {
+        last_progress = now;
+      }
       return true;
     case CanSocket::SendResult::SocketFull:
       ++counters.socket_full;

@@ -37,12 +37,15 @@ struct SocketcanParameters {
   int send_buffer = 0;               ///< bytes; 0: the kernel's default
   std::size_t transmit_limit = 128;  ///< frames on their way to the bus at a time, >= 1: more wait outside,
                                      ///< where an urgent one can still be put before them
+  /// Own frames are heard again when they have been on the bus, and then count as sent; otherwise, and with
+  /// half the system calls, when the kernel has taken them.
+  bool confirmed = true;
 };
 
 struct SocketcanCounters {
-  std::uint64_t sent = 0;              ///< frames that have been on the bus: own frames heard again
-  std::uint64_t received = 0;          ///< frames of others
-  std::uint64_t unconfirmed = 0;       ///< frames taken and then given up: bus-off, interface down, no answer
+  std::uint64_t sent = 0;         ///< frames that have been on the bus, see SocketcanParameters::confirmed
+  std::uint64_t received = 0;     ///< frames of others
+  std::uint64_t unconfirmed = 0;  ///< frames taken and then given up: bus-off, interface down, no answer
   std::uint64_t receive_overflow = 0;  ///< frames the kernel had no room for
   std::uint64_t queue_full = 0;        ///< times the interface's queue was full (ENOBUFS)
   std::uint64_t socket_full = 0;       ///< times the socket's buffer was full (EAGAIN)
