@@ -18,7 +18,8 @@ using canopen::SdoResult;
 
 namespace {
 
-/// Longest from the start command to the drive's word that it plays (SYNC, its next sample, a TPDO).
+/// Longest from the start command to the drive's word that it plays (SYNC, its next sample, a TPDO), on a
+/// host that is quick.
 constexpr HostDuration kStartTimeout = 200ms;
 /// Longest for the records of a prefill to get over the bus.
 constexpr HostDuration kFillTimeout = 5s;
@@ -33,6 +34,12 @@ constexpr HostDuration kLatchTime = 2ms;
 constexpr int kFillMismatches = 3;
 constexpr HostDuration kFillReadInterval = 50ms;
 constexpr double kHalfSample = 0.5e-3;
+
+/// A drive may be silent for `heartbeat_timeout` before it counts as lost; where that is long since frames
+/// take their time to get here, so may be what is waited for.
+HostDuration patience(HostDuration usual, const EposAxisParameters& parameters) {
+  return std::max(usual, parameters.heartbeat_timeout / 2);
+}
 
 }  // namespace
 
@@ -157,14 +164,15 @@ void EposAxis::start_clock() {
 void EposAxis::poll_armed(HostTime now) {
   start_clock();
   if (!clock_.running()) {
-    if (expired(now, kStartTimeout)) fail_in_motion("its start command does not get onto the bus", now);
+    if (expired(now, patience(kStartTimeout, parameters_)))
+      fail_in_motion("its start command does not get onto the bus", now);
     return;
   }
   feed(now);
   if (telemetry_.statusword.ip_mode_active()) return enter(Phase::Moving, now);
   if (feed_.all_sent() && clock_.least_elapsed(telemetry_.status_time) > feed_.duration())
     return end_of_motion(now);
-  if (expired(now, kStartTimeout)) {
+  if (expired(now, patience(kStartTimeout, parameters_))) {
     fail_in_motion(fmt::format("the drive does not start to interpolate; statusword: {}, FIFO: {}",
                                telemetry_.statusword.text(), telemetry_.buffer_status.text()),
                    now);
@@ -184,10 +192,10 @@ void EposAxis::watch_motion(HostTime now) {
     return fail_in_motion(
         fmt::format("no position has come from the drive for {:.2f} s", seconds(now - feedback_.time)), now);
   }
-  if (clock_.least_elapsed(now) > feed_.duration() + seconds(kOvertime)) {
+  const double overtime = seconds(patience(kOvertime, parameters_));
+  if (clock_.least_elapsed(now) > feed_.duration() + overtime) {
     fail_in_motion(
-        fmt::format("the drive still interpolates {:.1f} s after the end of its records", seconds(kOvertime)),
-        now);
+        fmt::format("the drive still interpolates {:.1f} s after the end of its records", overtime), now);
   }
 }
 
@@ -324,7 +332,7 @@ void EposAxis::poll_braking(HostTime now) {
   }
   if (!controlword_.applied() && controlword_.overdue(now)) controlword_.send(controlword_.word(), now);
   const double longest = parameters_.limits.max_velocity / parameters_.limits.max_acceleration;
-  if (expired(now, host_duration(2.0 * longest) + kOvertime)) {
+  if (expired(now, host_duration(2.0 * longest) + patience(kOvertime, parameters_))) {
     fail_in_motion("the drive was told to halt but does not come to rest", now);
   }
 }
