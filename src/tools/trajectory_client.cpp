@@ -25,7 +25,7 @@ using State = actionlib::SimpleClientGoalState;
 
 enum ExitCode { Succeeded = 0, BadInput = 2, Rejected = 3, NotSucceeded = 4, Timeout = 5 };
 
-constexpr double kServerPatience = 60.0;  // s, bring-up of all drives included
+constexpr double kServerPatience = 180.0;  // s, a slow start of ROS and bring-up of all drives included
 constexpr double kGoalPatience =
     60.0;  // s beyond the goal's own length, for lead-in, settling and a loaded machine
 constexpr auto kStep = std::chrono::milliseconds(100);
