@@ -217,6 +217,16 @@ void Assembly::add_epos(const Configuration& configuration, const DriveConfigura
   if (virtual_can_buses_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_epos(drive, index);
 }
 
+template <class Drive>
+void Assembly::observe(const DriveConfiguration& drive, std::size_t index, Drive& emulated) {
+  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
+    return inject_drive_fault(emulated, command, now, reason);
+  };
+  emulated_positions_[index] = [&emulated, transmission = drive.transmission] {
+    return transmission.joint_position(emulated.position());
+  };
+}
+
 void Assembly::emulate_epos(const DriveConfiguration& drive, std::size_t index) {
   emulation::EposDrive& emulated = world_.add_epos(*virtual_can_buses_.at(drive.bus), drive.emulation.drive);
   sampling_.push_back([this, index, &emulated](bool on) {
@@ -226,9 +236,7 @@ void Assembly::emulate_epos(const DriveConfiguration& drive, std::size_t index) 
       if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
     });
   });
-  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
-    return inject_drive_fault(emulated, command, now, reason);
-  };
+  observe(drive, index, emulated);
 }
 
 void Assembly::add_silverlode(const Configuration& configuration, const DriveConfiguration& drive) {
@@ -268,9 +276,7 @@ void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t i
       if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
     });
   });
-  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
-    return inject_drive_fault(emulated, command, now, reason);
-  };
+  observe(drive, index, emulated);
 }
 
 void Assembly::add_cyclic(const Configuration& configuration, const DriveConfiguration& drive) {
@@ -296,9 +302,7 @@ void Assembly::emulate_cyclic(const DriveConfiguration& drive, std::size_t index
       take(index, {sample.time, seconds(sample.time - begin), sample.demand, sample.actual});
     });
   });
-  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
-    return inject_drive_fault(emulated, command, now, reason);
-  };
+  observe(drive, index, emulated);
 }
 
 void Assembly::begin_audits(const std::vector<trajectory::Path>& paths, HostTime now) {
@@ -314,6 +318,12 @@ void Assembly::end_audits(HostTime now) {
 void Assembly::take(std::size_t joint, const DemandSample& sample) {
   audits_[joint].add(sample);
   if (sample_observer_) sample_observer_(joint, sample);
+}
+
+std::optional<double> Assembly::emulated_position(std::size_t joint) const {
+  const auto found = emulated_positions_.find(joint);
+  if (found == emulated_positions_.end()) return std::nullopt;
+  return found->second();
 }
 
 bool Assembly::inject(const std::string& target, const std::string& command, HostTime now,

@@ -273,6 +273,10 @@ void MotionHardware::set_sample_observer(SampleObserver observer) {
   implementation_->assembly.set_sample_observer(std::move(observer));
 }
 
+std::optional<double> MotionHardware::emulated_position(std::size_t joint) const {
+  return implementation_->assembly.emulated_position(joint);
+}
+
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,
                             HostTime) {
   return implementation_->assembly.inject(target, command, implementation_->now, reason);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +44,10 @@ class Assembly {
   /// `observer` sees all samples that are audited.
   void set_sample_observer(SampleObserver observer) { sample_observer_ = std::move(observer); }
 
+  /// Where the emulated drive of a joint stands, rad, whether or not its bus tells; nothing if it is not
+  /// emulated here.
+  std::optional<double> emulated_position(std::size_t joint) const;
+
   /// Injects a fault into what is called `target`, a joint or a bus. False with a reason when it is not
   /// emulated or the command is unknown.
   bool inject(const std::string& target, const std::string& command, HostTime now, std::string* reason);
@@ -65,6 +70,8 @@ class Assembly {
   void emulate_silverlode(const DriveConfiguration& drive, std::size_t index);
   void emulate_cyclic(const DriveConfiguration& drive, std::size_t index);
   axis::LineStart* common_start(const DriveConfiguration& drive);
+  template <class Drive>
+  void observe(const DriveConfiguration& drive, std::size_t index, Drive& emulated);
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;
@@ -82,6 +89,7 @@ class Assembly {
   /// Switch the samples of an emulated drive on and off: drives that nobody looks at compute less.
   std::vector<std::function<void(bool on)>> sampling_;
   std::map<std::string, Injector> injectors_;
+  std::map<std::size_t, std::function<double()>> emulated_positions_;  ///< by joint, rad
 };
 
 }  // namespace interpolated_motion::hardware

@@ -98,6 +98,10 @@ class MotionHardware {
   /// `observer` is called at each 1 ms sample of an emulated drive, with the number of its joint in joints().
   void set_sample_observer(SampleObserver observer);
 
+  /// Where the emulated drive of a joint stands, rad, as of the last update(), whether or not its bus tells;
+  /// nothing if it is not emulated in this process. `joint` is a number in joints().
+  std::optional<double> emulated_position(std::size_t joint) const;
+
   /// Injects a fault into the emulated drive of a joint or into an emulated bus, see fault_injection.h. False
   /// with a reason when `target` is not emulated or the command is unknown.
   bool inject(const std::string& target, const std::string& command, std::string* reason, HostTime now);
