@@ -26,7 +26,8 @@ function(imd_add_vcan_test type name result_option command)
   set_tests_properties(_ctest_${PROJECT_NAME}_${type}_${name} PROPERTIES RUN_SERIAL TRUE)
 endfunction()
 
-# test/socketcan: a GoogleTest program, which makes interfaces of its own, and Python tests of programs.
+# test/socketcan: a GoogleTest program, which makes interfaces of its own, and Python tests of programs. test/real_buses: the driver
+# and emulated drives in two programs, and programs of others beside them.
 function(imd_add_socketcan_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/socketcan/*.cpp)
   add_executable(socketcan_tests EXCLUDE_FROM_ALL ${sources})
@@ -37,7 +38,7 @@ function(imd_add_socketcan_tests)
   imd_add_vcan_test(gtest socketcan_tests --gtest_output=xml: ${PROJECT_BINARY_DIR}/socketcan_tests socketcan_tests)
 
   set(program ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/emulated_drives)
-  imd_add_vcan_test(pytest emulated_drives_test --junitxml=
-    "env IMD_EMULATED_DRIVES=${program} ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test/socketcan/emulated_drives_test.py"
-    emulated_drives)
+  set(pytest "env IMD_EMULATED_DRIVES=${program} ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test")
+  imd_add_vcan_test(pytest emulated_drives_test --junitxml= "${pytest}/socketcan/emulated_drives_test.py" emulated_drives)
+  imd_add_vcan_test(pytest real_buses --junitxml= "${pytest}/real_buses" emulated_drives driver_node)
 endfunction()

@@ -25,6 +25,10 @@ class AnyDrives(unittest.TestCase):
     def setUpClass(cls):
         cls.driver = Driver('/driver')
 
+    def inject(self, joint, command):
+        answer = self.driver.inject(joint, command)
+        self.assertTrue(answer.success, answer.message)
+
     def test_a_planner_goal_is_followed(self):
         status, result = self.driver.action.execute(goal_from_file('six_axis_toppra_100ms_pva.yaml'))
         self.assertEqual(status, GoalStatus.SUCCEEDED, result)
@@ -49,8 +53,7 @@ class AnyDrives(unittest.TestCase):
     def test_c_a_fault_stops_all_and_nothing_moves_without_a_new_goal(self):
         self.driver.action.send(goal(JOINTS, [point(20.0, [-0.5] * 6, [0.0] * 6)]))
         self.driver.wait_moving()
-        answer = self.driver.inject('joint5', 'power_cycle 0.2')
-        self.assertTrue(answer.success, answer.message)
+        self.inject('joint5', 'power_cycle 0.2')
         status, result = self.driver.action.ending()
         self.assertEqual(status, GoalStatus.ABORTED, result)
         self.assertIn('joint5', result.error_string)
