@@ -63,7 +63,7 @@ class RealArm(AnyDrives):
         configuration['bring_up_timeout'] = 60.0
         for name in buses_outside(configuration):
             if configuration['buses'][name]['transport'] == 'serial':
-                configuration['buses'][name]['device'] = os.path.join(cls.folder, name)
+                configuration['buses'][name].update(device=os.path.join(cls.folder, name), reply_timeout=0.5)
         return configuration
 
     @classmethod
