@@ -2,6 +2,7 @@
 
 #include "interpolated_motion_driver/axis/cyclic_axis.h"
 #include "interpolated_motion_driver/protocol/canopen/object.h"
+#include "interpolated_motion_driver/trajectory/stream_path.h"
 
 namespace interpolated_motion::axis {
 
@@ -34,6 +35,7 @@ std::optional<Refusal> CyclicAxis::plan(const trajectory::Path& path, GoalTime) 
   const auto certificate = encoding::certify_setpoints(path, encoding());
   if (!certificate) return certificate.error();
   planned_ = path;
+  planned_origin_.reset();
   return std::nullopt;
 }
 
@@ -42,16 +44,13 @@ GoalTime CyclicAxis::start_lead() const {
 }
 
 void CyclicAxis::load(HostTime now) {
-  set_out(planned_, kNever);
-  enter(Phase::Loading, now);
-}
-
-void CyclicAxis::set_out(const trajectory::Path& path, HostTime begin) {
-  path_ = path;
-  begin_ = begin;
+  path_ = planned_;
+  stream_origin_ = planned_origin_;
+  begin_ = kNever;
   finished_ = false;
   sent_at_load_ = sent_;
   missed_at_load_ = setpoints_.missed();
+  enter(Phase::Loading, now);
 }
 
 // What has been sent for instants after the begin was rest, and cannot be taken back.
@@ -64,20 +63,36 @@ void CyclicAxis::arm(HostTime begin, HostTime now) {
                 now);
   }
   begin_ = begin;
+  if (stream_origin_) path_ = trajectory::shifted(path_, GoalTime{seconds(begin - *stream_origin_)});
   setpoints_.follow(path_, begin);
   enter(Phase::Moving, now);
 }
 
-void CyclicAxis::follow(const trajectory::Path& path, HostTime origin, HostTime now) {
-  if (phase_ != Phase::Ready && phase_ != Phase::Moving) return;
-  const HostTime begin = origin + host_duration(path.start_time().count());
-  if (phase_ == Phase::Ready) {
-    set_out(path, begin);
-    enter(Phase::Moving, now);
-  }
-  path_ = path;
-  begin_ = begin;
-  setpoints_.follow(path, begin);
+// ---- a path that is still being made
+
+std::optional<Refusal> CyclicAxis::plan_stream(HostTime origin, GoalTime rest) {
+  planned_ = trajectory::with_rest(trajectory::Path(rest_position()), rest);
+  planned_origin_ = origin;
+  return std::nullopt;
+}
+
+GoalTime CyclicAxis::stream_lead() const {
+  return GoalTime{(kLatency + 1) * seconds(parameters_.sync_period)};
+}
+
+HostTime CyclicAxis::committed() const {
+  return phase_ == Phase::Moving && stream_origin_ ? setpoints_.newest() : kNever;
+}
+
+std::optional<Refusal> CyclicAxis::plan_follow(const trajectory::Path& path) {
+  planned_ = path;
+  return std::nullopt;
+}
+
+void CyclicAxis::follow() {
+  path_ = planned_;
+  begin_ = *stream_origin_ + host_duration(path_.start_time().count());
+  setpoints_.follow(path_, begin_);
 }
 
 HostTime CyclicAxis::path_begin() const {

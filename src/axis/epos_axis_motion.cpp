@@ -46,7 +46,7 @@ HostDuration patience(HostDuration usual, const EposAxisParameters& parameters) 
 // ---- plan and load
 // -------------------------------------------------------------------------------------------------
 
-std::optional<Refusal> EposAxis::plan(const trajectory::Path& path, GoalTime wait) {
+encoding::PvtEncoding EposAxis::encoding() const {
   encoding::PvtEncoding encoding;
   encoding.joint = parameters_.joint;
   encoding.transmission = parameters_.transmission;
@@ -54,18 +54,24 @@ std::optional<Refusal> EposAxis::plan(const trajectory::Path& path, GoalTime wai
   encoding.bound_counts = parameters_.deviation_bound;
   encoding.max_motor_rpm = facts_.max_velocity * facts_.velocity_unit_rpm();
   encoding.max_motor_acceleration = facts_.max_acceleration;
-  auto stream = encoding::encode_pvt(path, encoding, rest_counts_);
+  return encoding;
+}
+
+std::optional<Refusal> EposAxis::plan(const trajectory::Path& path, GoalTime wait) {
+  auto stream = encoding::encode_pvt(path, encoding(), rest_counts_);
   if (!stream) return stream.error();
-  planned_wait_ = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
-  planned_.load(std::move(stream.value()), {facts_.capacity, parameters_.commit_horizon});
-  planned_start_ = path.start_time();
+  planned_.wait = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
+  planned_.feed.load(stream.value(), {facts_.capacity, parameters_.commit_horizon});
+  planned_.start = path.start_time();
+  planned_.origin.reset();
   return std::nullopt;
 }
 
 void EposAxis::load(HostTime now) {
-  feed_ = planned_;
-  path_start_ = planned_start_;
-  wait_ = planned_wait_;
+  feed_ = planned_.feed;
+  wait_ = planned_.wait;
+  stream_origin_ = planned_.origin;
+  timeline_.begin(planned_.start - planned_.wait);
   finished_ = false;
   load_attempts_ = 0;
   clock_.stop();
@@ -88,7 +94,7 @@ void EposAxis::start_loading(HostTime now) {
 
 void EposAxis::poll_clearing(HostTime now) {
   if (!sequence_done(now)) return;
-  const std::int32_t expected = feed_.stream().start_counts;
+  const std::int32_t expected = feed_.start_position();
   if (rest_counts_ > expected + 1 || rest_counts_ < expected - 1) {
     return fail(
         fmt::format(
@@ -159,6 +165,7 @@ HostTime EposAxis::path_begin() const { return clock_.running() ? clock_.host_ti
 void EposAxis::start_clock() {
   if (clock_.running() || !controlword_.applied()) return;
   clock_.start(master_.last_sync_time() + host_duration(kHalfSample), facts_.takes_time_stamps);
+  if (stream_origin_) timeline_.begin(GoalTime{seconds(clock_.start_time() - *stream_origin_)});
 }
 
 void EposAxis::poll_armed(HostTime now) {
@@ -209,7 +216,7 @@ void EposAxis::end_of_motion(HostTime now) {
                     telemetry_.buffer_status.text()),
         now);
   }
-  rest_counts_ = feed_.stream().records.back().position;
+  rest_counts_ = feed_.final_position();
   enter(Phase::Ending, now);
   controlword_.send(cw::kEnableOperation, now);
 }

@@ -28,7 +28,7 @@ constexpr int kMisfits = 2;
 void SilverlodeAxis::feed(HostTime now) {
   if (!second_wait_made_) return;
   const bool few = feed_.waiting(clock_.elapsed(now), true) < kLeastAhead;
-  const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < parameters_.commit_horizon;
+  const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < horizon();
   offer(!feed_.all_sent() && (few || within_horizon), now);
 }
 
@@ -42,7 +42,7 @@ double SilverlodeAxis::rate_for_next() const {
   if (!clock_.running()) return 1.0;
   const double drive_rate = 1.0 + 1e-6 * clock_.error_ppm();
   const HostTime knot = clock_.host_time(feed_.queue_end());
-  const double due = (feed_.path().start_time() + GoalTime{seconds(knot - begin_)}).count();
+  const double due = (feed_.start_goal_time() + GoalTime{seconds(knot - begin_)}).count();
   const double behind = due - feed_.knot_goal_time().count();
   const double rate = 1.0 / drive_rate + behind / kCatchUpTime;
   return std::clamp(rate, 1.0 - 2.0 * parameters_.max_clock_error, 1.0 + 2.0 * parameters_.max_clock_error);
@@ -139,11 +139,13 @@ void SilverlodeAxis::poll_ending(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-GoalTime SilverlodeAxis::playback(HostTime when) const {
+GoalTime SilverlodeAxis::playback(HostTime when) const { return stream_begin_ + playback_of_feed(when); }
+
+GoalTime SilverlodeAxis::playback_of_feed(HostTime when) const {
   if (!feed_.loaded()) return GoalTime{0.0};
   if (clock_.running() && second_wait_made_) return feed_.goal_time_at(clock_.elapsed(when));
   if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - phase_since_)};
-  return feed_.path().start_time() - GoalTime{parameters_.start_lead};
+  return feed_.start_goal_time() - GoalTime{parameters_.start_lead};
 }
 
 }  // namespace interpolated_motion::axis

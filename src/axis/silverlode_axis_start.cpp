@@ -45,6 +45,7 @@ std::optional<Refusal> SilverlodeAxis::plan(const trajectory::Path& path, GoalTi
   if (!stream) return stream.error();
   planned_path_ = path;
   planned_slots_ = slots_of(stream.value(), path.start_time());
+  planned_origin_.reset();
   return std::nullopt;
 }
 
@@ -61,7 +62,10 @@ std::vector<RecordSlot> SilverlodeAxis::slots_of(const encoding::ImsStream& stre
 }
 
 void SilverlodeAxis::load(HostTime now) {
-  feed_.load(planned_path_, encoding(), rest_counts_, delivery_->capacity());
+  stream_origin_ = planned_origin_;
+  stream_begin_ = GoalTime{0.0};
+  feed_.load(planned_path_, stream_origin_ ? stream_encoding() : encoding(), rest_counts_,
+             delivery_->capacity());
   feed_.wait(std::llround(kFirstWait * parameters_.start_lead / tick()));
   finished_ = false;
   begin_ = kNever;
@@ -117,6 +121,7 @@ void SilverlodeAxis::arm(HostTime begin, HostTime now) {
         now);
   }
   begin_ = begin;
+  if (stream_origin_) stream_begin_ = GoalTime{seconds(begin - *stream_origin_)};
   enter(Phase::Starting, now);
   if (common_start_ != nullptr) return common_start_->ask(start_member_);
   start_id_ = device_.request(silverlode::ims_request(device_.address(), parameters_.ims_arguments));

@@ -46,7 +46,7 @@ void SilverlodeAxis::status(HostTime now, AxisStatus& out) const {
 
 /// Where the drive's demand is at `when`, rad.
 double SilverlodeAxis::demand_at(HostTime when) const {
-  return is_motion_phase() ? feed_.path().sample(playback(when)).position : rest_position();
+  return is_motion_phase() ? feed_.path().sample(playback_of_feed(when)).position : rest_position();
 }
 
 std::string SilverlodeAxis::state_text() const {

@@ -119,9 +119,14 @@ DriveMilliseconds rest_before(DriveMilliseconds rest, PvtStream& stream) {
 
 Expected<PvtStream, Refusal> encode_pvt(const trajectory::Path& path, const PvtEncoding& encoding,
                                         std::int32_t start_counts) {
-  PvtEncoder encoder(path, encoding, {0, start_counts, 0});
+  return encode_pvt(path, encoding, PvtKnot{0, start_counts, 0});
+}
+
+Expected<PvtStream, Refusal> encode_pvt(const trajectory::Path& path, const PvtEncoding& encoding,
+                                        const PvtKnot& from) {
+  PvtEncoder encoder(path, encoding, from);
   PvtStream stream;
-  stream.start_counts = start_counts;
+  stream.start_counts = from.position;
   while (!encoder.finished()) {
     PvtRecord record;
     PvtCertificate certificate;

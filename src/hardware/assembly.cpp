@@ -28,6 +28,7 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
   parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
+  parameters.stream_horizon = configuration.setpoints.horizon.count();
   parameters.record_bus_time = record_bus_time;
   parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
   parameters.clock_discipline = bus.clock_discipline;
@@ -49,6 +50,7 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
+  parameters.stream_horizon = configuration.setpoints.horizon.count();
   parameters.line_share = line_share;
   parameters.start_lead = start_lead;
   parameters.scale = drive.silverlode.scale;

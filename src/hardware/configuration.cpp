@@ -217,6 +217,9 @@ motion::StreamParameters parse_setpoints(ParameterReader reader) {
     value = GoalTime{reader.number(key, value.count(), low, high)};
   };
   time("delay", stream.delay, 0.0, 1.0);
+  time("horizon", stream.horizon, 0.05, 1.0);
+  time("write_period", stream.write_period, 0.005, 1.0);
+  time("linger", stream.linger, 0.0, 60.0);
   time("ride_through", stream.ride_through, 0.0, 1.0);
   time("max_age", stream.max_age, 0.0, 10.0);
   time("max_ahead", stream.max_ahead, 0.0, 10.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ class MotionHardware::Implementation {
   void update(HostTime now);
   HostTime next_deadline() const;
   void refresh_handles();
+  std::optional<Refusal> take_commands(HostTime time);
 
   HostTime now;
   Assembly assembly;
@@ -65,15 +67,20 @@ class MotionHardware::Implementation {
     double position = 0.0;
     double velocity = 0.0;
     double demand = 0.0;
+    double command = std::numeric_limits<double>::quiet_NaN();
   };
 
   void step(HostTime time);
   void follow_group();
+  void follow_stream();
   void begin_audit();
   void log_state_change(motion::GroupState before);
   void log_unexpected_traffic();
 
   std::vector<JointValues> values_;
+  HostDuration write_period_;
+  HostTime commands_due_ = HostTime::min();
+  std::uint64_t stream_revision_ = 0;
   motion::GroupState seen_state_ = motion::GroupState::Starting;
   std::vector<std::uint64_t> unexpected_;
 };
@@ -83,10 +90,11 @@ MotionHardware::Implementation::Implementation(const Configuration& configuratio
     : now(start),
       assembly(configuration, start, std::move(loop)),
       values_(configuration.drives.size()),
+      write_period_(host_duration(configuration.setpoints.write_period.count())),
       unexpected_(assembly.links().size()) {
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    handles.push_back(
-        {configuration.drives[i].joint, &values_[i].position, &values_[i].velocity, &values_[i].demand});
+    handles.push_back({configuration.drives[i].joint, &values_[i].position, &values_[i].velocity,
+                       &values_[i].demand, &values_[i].command});
   }
   std::vector<axis::Axis*> members;
   for (const auto& axis : assembly.axes()) members.push_back(axis.get());
@@ -129,14 +137,23 @@ HostTime MotionHardware::Implementation::next_deadline() const {
 }
 
 void MotionHardware::Implementation::follow_group() {
+  follow_stream();
   const motion::GroupState state = group->state();
   if (state == seen_state_) return;
   const motion::GroupState before = std::exchange(seen_state_, state);
   if (state == motion::GroupState::Moving) begin_audit();
-  if (state != motion::GroupState::Moving && state != motion::GroupState::Settling) {
+  if (state == motion::GroupState::Idle || state == motion::GroupState::Stopping ||
+      state == motion::GroupState::Fault)
     assembly.end_audits(now);
-  }
   log_state_change(before);
+}
+
+void MotionHardware::Implementation::follow_stream() {
+  if (group->stream().revision() == stream_revision_) return;
+  const bool begins = seen_state_ != motion::GroupState::Streaming;
+  stream_revision_ = group->stream().revision();
+  if (begins) return assembly.begin_audits(group->stream().paths(), now);
+  for (std::size_t i = 0; i < values_.size(); ++i) assembly.audits()[i].follow(group->stream().paths()[i]);
 }
 
 void MotionHardware::Implementation::begin_audit() {
@@ -174,8 +191,25 @@ void MotionHardware::Implementation::refresh_handles() {
     const axis::Axis& axis = *assembly.axes()[i];
     const axis::AxisFeedback& feedback = axis.feedback();
     axis.status(now, status);
-    values_[i] = {feedback.position, feedback.velocity, status.demand_position};
+    values_[i].position = feedback.position;
+    values_[i].velocity = feedback.velocity;
+    values_[i].demand = status.demand_position;
   }
+}
+
+std::optional<Refusal> MotionHardware::Implementation::take_commands(HostTime time) {
+  if (time < commands_due_) return std::nullopt;
+  const auto is_free = [](const JointValues& joint) { return std::isnan(joint.command); };
+  if (std::all_of(values_.begin(), values_.end(), is_free)) return std::nullopt;
+  commands_due_ = time + write_period_;
+  motion::Setpoint setpoint;
+  setpoint.time = time;
+  setpoint.source = "write()";
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    setpoint.joint_names.push_back(handles[i].name);
+    setpoint.positions.push_back(values_[i].command);
+  }
+  return group->setpoint(setpoint, time);
 }
 
 // ---- the interface
@@ -188,7 +222,11 @@ MotionHardware::~MotionHardware() = default;
 
 void MotionHardware::read(HostTime now, HostDuration) { implementation_->update(now); }
 
-void MotionHardware::write(HostTime now, HostDuration) { implementation_->update(now); }
+std::optional<Refusal> MotionHardware::write(HostTime now, HostDuration) {
+  auto refusal = implementation_->take_commands(now);
+  implementation_->update(now);
+  return refusal;
+}
 
 void MotionHardware::update(HostTime now) { implementation_->update(now); }
 

@@ -12,6 +12,8 @@ void PathAudit::begin(const trajectory::Path& path, HostTime now) {
   clear();
 }
 
+void PathAudit::follow(const trajectory::Path& path) { path_ = path; }
+
 void PathAudit::end(HostTime now) { end_ = std::min(end_, now); }
 
 void PathAudit::clear() {

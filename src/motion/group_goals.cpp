@@ -149,6 +149,7 @@ void Group::start_motion(HostTime now) {
   in_force_since_ = now;
   set_common_begin(now);
   last_ = active_;
+  last_is_stream_ = false;
   enter(GroupState::Moving);
 }
 

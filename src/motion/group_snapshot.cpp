@@ -79,10 +79,12 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
 
 MotionReport Group::report() const {
   MotionReport report;
-  if (!last_) return report;
+  if (!last_ && !last_is_stream_) return report;
   report.valid = true;
-  report.goal = last_->id;
-  report.duration = last_->plan.lead_in + last_->plan.duration;
+  if (!last_is_stream_) {
+    report.goal = last_->id;
+    report.duration = last_->plan.lead_in + last_->plan.duration;
+  }
   for (const axis::Axis* axis : axes_) {
     const axis::AxisReport figures = axis->report();
     report.joints.push_back({axis->joint(), axis->bus(), figures.records_sent, figures.minimum_fill,

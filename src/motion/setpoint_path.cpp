@@ -12,6 +12,8 @@ namespace {
 
 /// What lies further back is kept for feedback that is on its way, then forgotten.
 constexpr GoalTime kKept{0.5};
+/// Setpoints further apart tell nothing about a velocity: the arm is braking in between.
+constexpr double kPause = 0.25;  // s
 
 Refusal refuse(std::string text) { return {GoalError::InvalidGoal, std::move(text)}; }
 
@@ -29,42 +31,60 @@ std::size_t column_of(const Setpoint& setpoint, const std::string& joint) {
 SetpointPath::SetpointPath(trajectory::GoalRules rules, const StreamParameters& parameters)
     : rules_(std::move(rules)), parameters_(parameters) {}
 
-void SetpointPath::begin(const std::vector<double>& positions, HostTime now) {
+void SetpointPath::begin(const std::vector<double>& positions, GoalTime lead, HostTime now) {
+  delay_ = parameters_.delay + lead;
   origin_ = now;
+  joined_ = false;
   source_.clear();
   newest_.reset();
   known_ = 0;
   paths_.clear();
   for (const double position : positions) paths_.emplace_back(position);
   knots_.assign(positions.size(), {});
+  ++revision_;
 }
 
-std::optional<Refusal> SetpointPath::add(const Setpoint& setpoint, HostTime committed, HostTime now) {
-  if (auto refusal = check(setpoint, now)) return refusal;
+Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(const Setpoint& setpoint,
+                                                                      HostTime committed) const {
   const GoalTime start = std::max(goal_time(committed), GoalTime{0.0});
+  const GoalTime begun_late = std::max(start - goal_time(setpoint.time) - delay_, GoalTime{0.0});
+  const GoalTime catch_up = parameters_.catch_up + (joined_ ? GoalTime{0.0} : begun_late);
   std::vector<trajectory::Path> paths;
   for (std::size_t i = 0; i < rules_.joints.size(); ++i) {
-    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, parameters_.catch_up};
+    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, catch_up};
     const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
     const auto on = trajectory::stream_path(paths_[i].sample(start), start, aim, rules);
     if (!on) {
       Refusal refusal = trajectory::limit_refusal(rules_.joints[i], on.error());
-      refusal.text = fmt::format("The setpoint cannot be reached within {:.2f} s: {}",
-                                 parameters_.catch_up.count(), refusal.text);
+      refusal.text =
+          fmt::format("The setpoint cannot be reached within {:.2f} s: {}", catch_up.count(), refusal.text);
       return refusal;
     }
-    paths.push_back(trajectory::splice(paths_[i], start - kKept, start, on.value()));
+    paths.push_back(trajectory::splice(paths_[i], start - kKept, start,
+                                       trajectory::with_rest(on.value(), parameters_.linger)));
   }
+  return paths;
+}
+
+void SetpointPath::take(const Setpoint& setpoint) {
+  newest_ = setpoint.time;
+  source_ = setpoint.source;
+}
+
+void SetpointPath::follow(const Setpoint& setpoint, std::vector<trajectory::Path> paths) {
+  pass_over(setpoint);
+  paths_ = std::move(paths);
+  joined_ = true;
+  ++revision_;
+}
+
+void SetpointPath::pass_over(const Setpoint& setpoint) {
   for (std::size_t i = 0; i < knots_.size(); ++i) {
     std::copy_backward(knots_[i].begin(), knots_[i].end() - 1, knots_[i].end());
     knots_[i][0] = {seconds(setpoint.time - origin_),
                     setpoint.positions[column_of(setpoint, rules_.joints[i])]};
   }
   known_ = std::min(known_ + 1, std::tuple_size<Knots>::value);
-  paths_ = std::move(paths);
-  newest_ = setpoint.time;
-  source_ = setpoint.source;
-  return std::nullopt;
 }
 
 std::optional<Refusal> SetpointPath::check(const Setpoint& setpoint, HostTime now) const {
@@ -118,17 +138,17 @@ trajectory::StreamTarget SetpointPath::target(const Setpoint& setpoint, std::siz
   const double velocity = setpoint.velocities.empty()
                               ? estimated_velocity(joint, seconds(setpoint.time - origin_), position)
                               : setpoint.velocities[column];
-  return {goal_time(setpoint.time) + parameters_.delay, position, velocity};
+  return {goal_time(setpoint.time) + delay_, position, velocity};
 }
 
-/// Slope at the newest of the parabola through the last three setpoints (with two, of the line; with one, 0).
-/// Never more than the joint can do, nor more than it can brake before a limit of position.
+/// Slope at the newest of the parabola through the last three setpoints; with two, of the line; with one, or
+/// after a pause, 0. Never more than the joint can do, nor more than it can brake before a limit of position.
 double SetpointPath::estimated_velocity(std::size_t joint, double time, double position) const {
   const Knots& knots = knots_[joint];
-  if (known_ == 0) return 0.0;
+  if (known_ == 0 || time - knots[0].time > kPause) return 0.0;
   const double slope = (position - knots[0].position) / (time - knots[0].time);
   double velocity = slope;
-  if (known_ >= 2) {
+  if (known_ >= 2 && knots[0].time - knots[1].time <= kPause) {
     const double before = (knots[0].position - knots[1].position) / (knots[0].time - knots[1].time);
     velocity += (slope - before) / (time - knots[1].time) * (time - knots[0].time);
   }

@@ -1,6 +1,5 @@
 #include "options.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -8,7 +7,7 @@
 namespace interpolated_motion::tools {
 namespace {
 
-double read_seconds(const std::string& text) {
+double read_number(const std::string& name, const std::string& text, double above, double most) {
   std::size_t read = 0;
   double value = 0.0;
   try {
@@ -16,8 +15,9 @@ double read_seconds(const std::string& text) {
   } catch (const std::exception&) {
     read = 0;
   }
-  if (read == 0 || read != text.size() || !(value > 0.0) || !std::isfinite(value)) {
-    throw std::runtime_error(fmt::format("--timeout {}: give a number of seconds above 0", text));
+  if (read == 0 || read != text.size() || !(value > above && value <= most)) {
+    throw std::runtime_error(
+        fmt::format("{} {}: give a number above {}, at most {}", name, text, above, most));
   }
   return value;
 }
@@ -32,22 +32,31 @@ Options parse_options(const std::vector<std::string>& arguments) {
       options.help = true;
       return options;
     }
-    if (name != "--goal" && name != "--node" && name != "--timeout") {
+    if (name != "--goal" && name != "--setpoints" && name != "--lost" && name != "--node" &&
+        name != "--timeout") {
       throw std::runtime_error(fmt::format("unknown argument {}", name));
     }
     if (++i == arguments.size()) throw std::runtime_error(name + " needs a value");
     if (name == "--goal") options.goal_file = arguments[i];
     if (name == "--node") options.node = arguments[i];
-    if (name == "--timeout") options.timeout = read_seconds(arguments[i]);
+    if (name == "--setpoints") options.setpoints = read_number(name, arguments[i], 0.0, 3600.0);
+    if (name == "--lost") options.lost = read_number(name, arguments[i], -1e-9, 0.9);
+    if (name == "--timeout") options.timeout = read_number(name, arguments[i], 0.0, 1e6);
   }
-  if (options.goal_file.empty()) throw std::runtime_error("--goal FILE is missing");
+  if (options.goal_file.empty() == (options.setpoints == 0.0))
+    throw std::runtime_error("give either --goal FILE or --setpoints SECONDS");
   return options;
 }
 
 std::string usage() {
-  return "trajectory_client --goal FILE [--node NAME] [--timeout SECONDS]\n"
-         "Sends a trajectory to the driver, shows its progress and reports what the drives made of it.\n"
+  return "trajectory_client --goal FILE | --setpoints SECONDS [--lost PART] [--node NAME] [--timeout "
+         "SECONDS]\n"
+         "Sends a trajectory, or a stream of setpoints, to the driver, shows its progress and reports what "
+         "the "
+         "drives made of it.\n"
          "  --goal FILE        YAML trajectory_msgs/JointTrajectory\n"
+         "  --setpoints SECONDS  a sine of all joints, 50 setpoints a second, each up to half a period late\n"
+         "  --lost PART        of the setpoints is not sent, 0..0.9 (default 0)\n"
          "  --node NAME        the driver's node (default /driver)\n"
          "  --timeout SECONDS  for the whole run (default: 60 s for the driver to be ready, then the goal's "
          "own length + 60 s)\n"

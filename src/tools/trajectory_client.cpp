@@ -15,6 +15,7 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "setpoint_stream.h"
 
 namespace interpolated_motion::tools {
 namespace {
@@ -133,6 +134,23 @@ ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& tr
   return exit_code(client.getState());
 }
 
+ExitCode stream(const Options& options) {
+  ros::NodeHandle ros_node;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  Client client(options.node + "/follow_joint_trajectory", false);
+  if (!wait_for_server(client, options.node,
+                       after(options.timeout > 0.0 ? options.timeout : kServerPatience))) {
+    complain(
+        fmt::format("no action server {}/follow_joint_trajectory; is the driver running?", options.node));
+    return Timeout;
+  }
+  const bool followed = stream_setpoints(ros_node, {options.node, options.setpoints, options.lost});
+  print_report(ros_node, options.node);
+  say(followed ? "FOLLOWED" : "NOT FOLLOWED");
+  return followed ? Succeeded : NotSucceeded;
+}
+
 }  // namespace
 }  // namespace interpolated_motion::tools
 
@@ -147,9 +165,9 @@ int main(int argc, char** argv) {
       std::fputs(usage().c_str(), stdout);
       return Succeeded;
     }
-    const auto trajectory = read_goal_file(options.goal_file);
     ros::init(argc, argv, "trajectory_client", ros::init_options::AnonymousName);
-    return send(options, trajectory);
+    if (options.setpoints > 0.0) return stream(options);
+    return send(options, read_goal_file(options.goal_file));
   } catch (const std::exception& error) {
     complain(error.what());
     return BadInput;

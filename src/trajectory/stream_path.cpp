@@ -73,6 +73,21 @@ Expected<Path, LimitViolation> stream_path(const State& from, GoalTime start, co
   return path;
 }
 
+Path with_rest(const Path& path, GoalTime duration) {
+  if (duration <= GoalTime{0.0}) return path;
+  const Polynomial standing{{path.final_position()}};
+  return then(path.pieces(), Path({{path.end_time(), path.end_time() + duration, standing}}));
+}
+
+Path shifted(const Path& path, GoalTime by) {
+  std::vector<Piece> pieces = path.pieces();
+  for (Piece& piece : pieces) {
+    piece.start += by;
+    piece.end += by;
+  }
+  return then(std::move(pieces), Path(path.final_position()));
+}
+
 Path splice(const Path& path, GoalTime begin, GoalTime end, const Path& rest) {
   std::vector<Piece> pieces;
   for (const Piece& piece : path.pieces()) {

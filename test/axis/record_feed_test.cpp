@@ -74,5 +74,38 @@ TEST(RecordFeed, SlotsTellWhenEachRecordMayAndMustComeOverTheBus) {
   EXPECT_NEAR(slots[62].release.count(), -0.5 + 0.010, 1e-12);
 }
 
+TEST(RecordFeed, WhatHasNotBeenSentCanBeReplaced) {
+  RecordFeed feed;
+  feed.load(stream(10, 20), {64, 0.1});
+  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 5);
+  EXPECT_EQ(feed.sent_knot().sample, 100);
+  EXPECT_EQ(feed.sent_knot().position, 500);
+  encoding::PvtStream other;
+  other.records = {{700, 3, 30}, {800, 0, 40}};
+  feed.replace_unsent(other);
+  EXPECT_EQ(feed.size(), 8u);
+  EXPECT_EQ(feed.sent(), 5u);
+  EXPECT_NEAR(feed.duration(), 0.170, 1e-12);
+  EXPECT_EQ(feed.next(0.05, 0.05), (PvtRecord{700, 3, 30}));
+  feed.mark_sent();
+  feed.mark_sent();
+  EXPECT_EQ(feed.next(0.16, 0.16), (PvtRecord{800, 0, 0})) << "the record that ends the mode";
+  EXPECT_EQ(feed.final_position(), 800);
+}
+
+TEST(RecordFeed, CountsOnWhenOldRecordsAreForgotten) {
+  RecordFeed feed;
+  feed.load(stream(10, 20), {64, 0.1});
+  double elapsed = 0.0;
+  for (std::size_t i = 0; i < 5000; ++i) {
+    feed.replace_unsent(stream(10, 20));
+    while (feed.next(elapsed, elapsed)) feed.mark_sent();
+    ASSERT_FALSE(feed.all_sent());
+    ASSERT_EQ(feed.played(elapsed + 0.01), i);
+    ASSERT_NEAR(feed.end(feed.sent() - 1), 0.02 * static_cast<double>(feed.sent()), 1e-6);
+    elapsed += 0.02;
+  }
+}
+
 }  // namespace
 }  // namespace interpolated_motion::axis

@@ -127,13 +127,22 @@ class Axis {
   /// Loaded.
   virtual void stop(HostTime now) = 0;
 
-  /// Whether the axis can follow a path that is still being made, by follow().
-  virtual bool can_follow() const { return false; }
-  /// Sets out along `path` (Ready), or goes on along it (Moving): its goal time 0 is at host time `origin`,
-  /// and up to committed() it is as it was. At the end of the path the axis is finished.
-  virtual void follow(const trajectory::Path& /*path*/, HostTime /*origin*/, HostTime /*now*/) {}
-  /// Until when the motion can no longer be changed.
-  virtual HostTime committed() const { return HostTime::min(); }
+  // A path that is still being made while it is followed, for a stream of setpoints.
+
+  /// As plan(), for a path whose goal time 0 is at host time `origin` and which plan_follow() makes longer:
+  /// at first the axis stands, for `rest` from the begin on. load() and arm() start it like any plan.
+  virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
+  /// How far ahead of the present the motion is committed, at most, while a stream is followed.
+  virtual GoalTime stream_lead() const = 0;
+  /// Until when the motion can no longer be changed; kNever while the motion has not begun and once its end
+  /// is committed.
+  virtual HostTime committed() const = 0;
+  /// Encodes the way on along `path`, which is the former one up to committed() and ends at rest. Refused
+  /// paths leave the axis as it was. Only while committed() is not kNever.
+  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path) = 0;
+  /// Takes the way planned last by plan_follow(), at the same `now`. At the end of the path the axis is
+  /// finished.
+  virtual void follow() = 0;
 
   /// Goal time the drive is playing at host time `when` (before the path's start while not started).
   virtual GoalTime playback(HostTime when) const = 0;

@@ -55,9 +55,11 @@ class CyclicAxis : public Axis {
   HostTime path_begin() const override;
   void stop(HostTime now) override;
 
-  bool can_follow() const override { return true; }
-  void follow(const trajectory::Path& path, HostTime origin, HostTime now) override;
-  HostTime committed() const override { return setpoints_.newest(); }
+  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  GoalTime stream_lead() const override;
+  HostTime committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  void follow() override;
 
   GoalTime playback(HostTime when) const override;
   /// The drive follows SYNC, so its clock is the host's.
@@ -106,7 +108,6 @@ class CyclicAxis : public Axis {
 
   bool wants_targets() const;
   void send_target();
-  void set_out(const trajectory::Path& path, HostTime begin);
   void come_to_rest(HostTime now);
 
   void probe(HostTime now);
@@ -145,7 +146,9 @@ class CyclicAxis : public Axis {
 
   std::int32_t rest_counts_ = 0;
   trajectory::Path planned_;
+  std::optional<HostTime> planned_origin_;  ///< host time of goal time 0, for a stream
   trajectory::Path path_;
+  std::optional<HostTime> stream_origin_;
   HostTime begin_ = kNever;
   bool finished_ = false;
 

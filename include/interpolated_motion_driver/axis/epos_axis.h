@@ -9,6 +9,7 @@
 #include "interpolated_motion_driver/axis/epos_bring_up.h"
 #include "interpolated_motion_driver/axis/epos_parameters.h"
 #include "interpolated_motion_driver/axis/epos_telemetry.h"
+#include "interpolated_motion_driver/axis/goal_timeline.h"
 #include "interpolated_motion_driver/axis/playback_clock.h"
 #include "interpolated_motion_driver/axis/record_feed.h"
 #include "interpolated_motion_driver/axis/sdo_sequence.h"
@@ -48,7 +49,7 @@ class EposAxis : public Axis {
   GoalTime start_lead() const override { return GoalTime{0.0}; }
   std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override {
-    return planned_.slots(planned_start_ - planned_wait_);
+    return planned_.feed.slots(planned_.start - planned_.wait);
   }
   double record_bus_time() const override { return parameters_.record_bus_time; }
   void load(HostTime now) override;
@@ -56,10 +57,14 @@ class EposAxis : public Axis {
   HostTime path_begin() const override;
   void stop(HostTime now) override;
 
+  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  GoalTime stream_lead() const override;
+  HostTime committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  void follow() override;
+
   GoalTime playback(HostTime when) const override { return goal_time_at(clock_.elapsed(when)); }
-  GoalTime goal_time_at(double drive_seconds) const override {
-    return path_start_ - wait_ + GoalTime{drive_seconds};
-  }
+  GoalTime goal_time_at(double drive_seconds) const override { return timeline_.at(drive_seconds); }
   bool finished() const override { return finished_; }
   const AxisFeedback& feedback() const override { return feedback_; }
   void status(HostTime now, AxisStatus& out) const override;
@@ -141,6 +146,9 @@ class EposAxis : public Axis {
   SdoSequence::Step read_mode();
   void read_rest(std::vector<SdoSequence::Step> before, Phase phase, HostTime now);
 
+  encoding::PvtEncoding encoding() const;
+  encoding::PvtEncoding stream_encoding() const;
+  double rate_from(double drive_seconds) const;
   void start_loading(HostTime now);
   void start_emptying(HostTime now);
   void feed(HostTime now);
@@ -174,12 +182,20 @@ class EposAxis : public Axis {
   std::string error_text_;
 
   std::int32_t rest_counts_ = 0;
-  RecordFeed planned_;
-  GoalTime planned_start_{0.0};
-  GoalTime planned_wait_{0.0};
+  /// What plan() and plan_stream() have made, until load().
+  struct Plan {
+    RecordFeed feed;
+    GoalTime start{0.0};             ///< goal time of the path's start
+    GoalTime wait{0.0};              ///< from the start signal until then
+    std::optional<HostTime> origin;  ///< host time of goal time 0, for a stream
+  };
+  Plan planned_;
   RecordFeed feed_;
-  GoalTime path_start_{0.0};
-  GoalTime wait_{0.0};  ///< from the start signal to path_start_
+  GoalTimeline timeline_;
+  GoalTime wait_{0.0};  ///< from the start signal to the path's start
+  std::optional<HostTime> stream_origin_;
+  encoding::PvtStream way_on_;  ///< of plan_follow()
+  double way_on_rate_ = 1.0;
   PlaybackClock clock_;
   bool finished_ = false;
   int load_attempts_ = 0;

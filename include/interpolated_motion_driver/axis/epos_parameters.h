@@ -18,6 +18,7 @@ struct EposAxisParameters {
   double limit_margin = 1.2;  ///< the drive's own fault limits (0x607F, 0x60C5) are the joint's times this
   double max_following_error = 0.1;  ///< rad, 0x6065
   double commit_horizon = 2.0;       ///< s of motion kept in the drive's FIFO
+  double stream_horizon = 0.1;       ///< the same, while setpoints are followed
   double record_bus_time = 0.0;      ///< s of bus per record, as share of what records may fill
 
   std::uint8_t host_node_id = 127;

@@ -23,9 +23,11 @@ class PlaybackClock {
     Middle,         ///< each look bounds the clock closely, from both sides alike
   };
 
-  /// `max_error`: largest relative error of a drive's crystal, e.g. 5e-4. `sample`: uncertainty of the start,
-  /// s.
-  explicit PlaybackClock(double max_error = 5e-4, double sample = 1e-3,
+  /// Largest relative error of a drive's crystal, if nothing else is said: five times that of a common one.
+  static constexpr double kMaxError = 5e-4;
+
+  /// `max_error`: largest relative error of a drive's crystal. `sample`: uncertainty of the start, s.
+  explicit PlaybackClock(double max_error = kMaxError, double sample = 1e-3,
                          Estimate estimate = Estimate::NearestToHost);
 
   /// Largest deviation of a drive that follows the host, s: start and report are each known to a sample, and

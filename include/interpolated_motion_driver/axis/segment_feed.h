@@ -29,6 +29,14 @@ class SegmentFeed {
             std::size_t depth);
   bool loaded() const { return source_ != nullptr; }
 
+  /// Encodes the way on along `path`, which is the former one up to knot_goal_time(): with the bound of
+  /// `encoding`, doubled as often as it takes, up to `widest` counts. Refused when it cannot be followed even
+  /// so; then the feed is as it was. Not when ending().
+  std::optional<Refusal> plan_way_on(const trajectory::Path& path, encoding::ImsEncoding encoding,
+                                     double widest);
+  /// Takes the way planned last by plan_way_on(), when no segment has been encoded since.
+  void take_way_on();
+
   /// A segment of waiting for `ticks` >= 1, to be sent next. Only before the first segment of the path.
   void wait(std::int64_t ticks);
 
@@ -39,6 +47,8 @@ class SegmentFeed {
   void mark_sent();
 
   bool all_sent() const { return terminated_; }
+  /// Whether the segment that ends the motion has been given out.
+  bool ending() const { return terminated_ || (next_ && next_->segment.time == 0); }
   std::size_t sent() const { return sent_; }
   /// Whether a place of the queue is free although the drive may have played no more than `least_elapsed`
   /// seconds. The drive has not started yet when `started` is false: then nothing has left the queue.
@@ -63,10 +73,14 @@ class SegmentFeed {
   /// When `ticks_left` remain of a segment, of the one for which that comes nearest to `expected` seconds.
   std::optional<Instant> instant_of(std::int64_t ticks_left, double expected) const;
 
-  /// Goal time that the next segment begins at, and that of any instant of the drive's motion so far.
+  /// Where the segments given out so far lead: seconds of the drive's clock, and goal time. From there on the
+  /// path may still change.
+  double knot_end() const;
   GoalTime knot_goal_time() const;
+  /// Goal time of any instant of the drive's motion so far.
   GoalTime goal_time_at(double drive_seconds) const;
   const trajectory::Path& path() const;
+  GoalTime start_goal_time() const { return start_goal_time_; }  ///< when the drive leaves its waiting
   std::int32_t final_counts() const { return final_counts_; }
 
  private:
@@ -80,11 +94,18 @@ class SegmentFeed {
   };
   /// The path and its encoder, which refers to it.
   struct Source {
-    Source(const trajectory::Path& p, const encoding::ImsEncoding& encoding, std::int32_t start_counts);
+    Source(const trajectory::Path& p, const encoding::ImsEncoding& e, const encoding::ImsKnot& from);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
     trajectory::Path path;
+    encoding::ImsEncoding encoding;
     encoding::ImsEncoder encoder;
   };
 
+  static std::optional<Refusal> try_out(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
+                                        const encoding::ImsKnot& from);
+  std::optional<Refusal> encode_next(double rate, Stretch& stretch);
+  void take(std::unique_ptr<Source> source);
   std::size_t executing(double elapsed) const;
   void forget_old_stretches();
 
@@ -95,7 +116,9 @@ class SegmentFeed {
   static constexpr std::size_t kRecent = 64;
 
   std::unique_ptr<Source> source_;
-  encoding::ImsEncoding encoding_;
+  std::unique_ptr<Source> way_on_;
+  double widest_ = 0.0;  ///< counts, up to where the bound may be doubled
+  GoalTime start_goal_time_{0.0};
   std::int32_t start_counts_ = 0;
   std::int32_t final_counts_ = 0;
   std::size_t depth_ = 0;

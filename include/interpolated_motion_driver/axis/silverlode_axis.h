@@ -57,8 +57,16 @@ class SilverlodeAxis : public Axis {
   HostTime path_begin() const override { return begin_; }
   void stop(HostTime now) override;
 
+  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  GoalTime stream_lead() const override;
+  HostTime committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  void follow() override;
+
   GoalTime playback(HostTime when) const override;
-  GoalTime goal_time_at(double drive_seconds) const override { return feed_.goal_time_at(drive_seconds); }
+  GoalTime goal_time_at(double drive_seconds) const override {
+    return stream_begin_ + feed_.goal_time_at(drive_seconds);
+  }
   bool finished() const override { return finished_; }
   const AxisFeedback& feedback() const override { return status_.feedback(); }
   void status(HostTime now, AxisStatus& out) const override;
@@ -129,6 +137,7 @@ class SilverlodeAxis : public Axis {
   void begin_motion(HostTime now);
 
   std::vector<RecordSlot> slots_of(const encoding::ImsStream& stream, GoalTime start) const;
+  double horizon() const;
   void make_second_wait(HostTime now);
   void feed(HostTime now);
   void offer(bool more, HostTime now);
@@ -145,6 +154,8 @@ class SilverlodeAxis : public Axis {
   HostDuration longest_motion(HostTime now) const;
 
   encoding::ImsEncoding encoding() const;
+  encoding::ImsEncoding stream_encoding() const;
+  GoalTime playback_of_feed(HostTime when) const;
   double drive_rate() const { return 1.0 + 1e-6 * clock_error_ppm_; }
   double tick() const { return parameters_.scale.tick; }
   double demand_at(HostTime when) const;
@@ -184,6 +195,9 @@ class SilverlodeAxis : public Axis {
   std::int32_t read_deceleration_ = 0;  ///< register 19 as the drive has them before a motion
   trajectory::Path planned_path_;
   std::vector<RecordSlot> planned_slots_;
+  std::optional<HostTime> planned_origin_;  ///< host time of goal time 0, for a stream
+  std::optional<HostTime> stream_origin_;
+  GoalTime stream_begin_{0.0};  ///< goal time at which the feed's own begins, other than 0 for a stream
   SegmentFeed feed_;
   PlaybackClock clock_;
   std::unique_ptr<SegmentDelivery> delivery_;

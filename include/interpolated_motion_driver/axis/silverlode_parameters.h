@@ -21,6 +21,7 @@ struct SilverlodeAxisParameters {
   double limit_margin = 1.2;  ///< segments may exceed the joint's acceleration by this factor between knots
   double max_following_error = 0.1;  ///< rad, ERL
   double commit_horizon = 2.0;       ///< s of motion kept in the drive's queue
+  double stream_horizon = 0.1;       ///< the same, while setpoints are followed
   double line_share = 0.85;          ///< of the line's time that segments may fill, above 0 to 1
   double start_lead = 0.3;           ///< s from arm() to the begin of the path
 

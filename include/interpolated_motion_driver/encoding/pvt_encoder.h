@@ -92,4 +92,8 @@ class PvtEncoder {
 Expected<PvtStream, Refusal> encode_pvt(const trajectory::Path& path, const PvtEncoding& encoding,
                                         std::int32_t start_counts);
 
+/// The same from a knot on where the drive may be in motion: `from` is at the path's start.
+Expected<PvtStream, Refusal> encode_pvt(const trajectory::Path& path, const PvtEncoding& encoding,
+                                        const PvtKnot& from);
+
 }  // namespace interpolated_motion::encoding

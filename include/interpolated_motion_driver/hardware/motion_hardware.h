@@ -22,9 +22,10 @@ namespace interpolated_motion::hardware {
 /// A named joint as ros_control hands it out: pointers that stay valid as long as the hardware lives.
 struct JointHandle {
   std::string name;
-  const double* position = nullptr;  ///< rad, actual
-  const double* velocity = nullptr;  ///< rad/s, actual
-  const double* demand = nullptr;    ///< rad, the drive's demand
+  const double* position = nullptr;    ///< rad, actual
+  const double* velocity = nullptr;    ///< rad/s, actual
+  const double* demand = nullptr;      ///< rad, the drive's demand
+  double* position_command = nullptr;  ///< rad, for write(); NaN, as at first: none
 };
 
 /// The whole driver below ROS: buses, axes and the motion group of one configuration, with emulated drives
@@ -45,8 +46,10 @@ class MotionHardware {
 
   /// As hardware_interface::RobotHW: takes everything that has happened on the buses until `now`.
   void read(HostTime now, HostDuration period);
-  /// As hardware_interface::RobotHW: sends what is due at `now`.
-  void write(HostTime now, HostDuration period);
+  /// As hardware_interface::RobotHW: takes the position commands of the handles as a setpoint of `now`, at
+  /// most once in `setpoints/write_period`, then sends what is due. Nothing is commanded while every command
+  /// is NaN. The commands are followed as any stream of setpoints; returned is why they are not.
+  std::optional<Refusal> write(HostTime now, HostDuration period);
   /// read() and write() at `now`; with emulated buses, everything since the last call happens at its own
   /// time.
   void update(HostTime now);

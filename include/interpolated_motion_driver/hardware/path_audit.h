@@ -19,6 +19,8 @@ class PathAudit {
 
   /// Samples from `now` on belong to `path`.
   void begin(const trajectory::Path& path, HostTime now);
+  /// The path has changed, behind the samples so far.
+  void follow(const trajectory::Path& path);
   /// Samples after `now` are not compared: the drive has been told to leave the path.
   void end(HostTime now);
   /// Forgets the samples, not the path.

@@ -64,6 +64,8 @@ class Group {
   /// The goal in force, whose paths the drives are playing or have played last. Null before the first goal
   /// has been loaded.
   const ActiveGoal* last_goal() const { return last_ ? &*last_ : nullptr; }
+  /// The paths of the stream of setpoints that is followed or was followed last.
+  const SetpointPath& stream() const { return stream_; }
 
  private:
   void poll_starting(HostTime now);
@@ -101,7 +103,12 @@ class Group {
   GoalTime longest_lead() const;
   GoalTime wait_after_signal() const;
   std::optional<Refusal> take_setpoint(const Setpoint& setpoint, HostTime now);
-  std::optional<Refusal> refuse_to_follow() const;
+  std::optional<Refusal> open_stream(const Setpoint& setpoint, HostTime now);
+  std::optional<Refusal> follow_stream(const Setpoint& setpoint);
+  void wait_with(const Setpoint& setpoint);
+  void begin_stream(HostTime now);
+  void join_stream();
+  HostTime committed() const;
   const trajectory::Path* path_in_force(std::size_t joint) const;
   void finish_goal(const Ending& ending);
   void finish_stop_goals();
@@ -136,7 +143,12 @@ class Group {
   std::optional<ActiveGoal> last_;
   std::optional<PendingGoal> pending_;
   std::optional<Ending> ending_;
+  /// How far a stream has come: loading into the drives, on their way to its begin, following.
+  enum class StreamStage { Loading, Beginning, Following };
+  StreamStage stream_stage_ = StreamStage::Following;
+  bool last_is_stream_ = false;  ///< what report() is about
   SetpointPath stream_;
+  std::optional<Setpoint> waiting_;  ///< the newest one, until the drives have begun
   StreamCounters setpoints_;
   std::vector<GoalId> stop_goals_;
   std::deque<GoalResult> results_;

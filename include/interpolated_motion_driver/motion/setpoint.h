@@ -19,10 +19,17 @@ struct Setpoint {
 
 /// How a stream of setpoints is followed.
 struct StreamParameters {
-  GoalTime delay{0.06};        ///< the arm is so far behind the stream: longer rides out more jitter
+  /// The arm is so far behind the stream, besides what its drives need to know ahead
+  /// (axis::Axis::stream_lead()): longer rides out more jitter.
+  GoalTime delay{0.03};
+  GoalTime horizon{
+      0.1};  ///< motion kept in drives that have a FIFO: more rides out longer stalls of the host
   GoalTime ride_through{0.1};  ///< without setpoints it goes on for so long, then brakes
-  GoalTime max_age{0.2};       ///< an older setpoint is refused
-  GoalTime max_ahead{0.5};     ///< one for later than that is refused
+  GoalTime write_period{
+      0.02};                ///< shortest time between two setpoints from hardware::MotionHardware::write()
+  GoalTime linger{1.0};     ///< at rest it waits so long for more; then the stream has ended
+  GoalTime max_age{0.2};    ///< an older setpoint is refused
+  GoalTime max_ahead{0.5};  ///< one for later than that is refused
   GoalTime catch_up{0.5};  ///< longest the arm may be behind the stream after late setpoints, besides `delay`
 };
 

@@ -35,6 +35,12 @@ struct StreamTarget {
 Expected<Path, LimitViolation> stream_path(const State& from, GoalTime start, const StreamTarget& target,
                                            const StreamRules& rules);
 
+/// `path`, at rest at its end, and behind it a rest of `duration`.
+Path with_rest(const Path& path, GoalTime duration);
+
+/// `path`, `by` later.
+Path shifted(const Path& path, GoalTime by);
+
 /// The pieces of `path` from those at `begin` on, cut off at `end`, and `rest` behind, which must start there
 /// where the path has not ended before.
 Path splice(const Path& path, GoalTime begin, GoalTime end, const Path& rest);

@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <utility>
+
+#include "interpolated_motion_driver/axis/epos_axis.h"
+#include "interpolated_motion_driver/trajectory/remainder.h"
+#include "interpolated_motion_driver/trajectory/stream_path.h"
+
+namespace interpolated_motion::axis {
+
+// A path that is still being made: what has not been sent yet is encoded anew whenever the path has changed.
+
+namespace {
+
+/// Longest record of a stream, ms: a record is committed as a whole.
+constexpr std::int64_t kLongestRecord = 25;
+/// The bound of a goal may be doubled up to this multiple of it: the knot sent last was chosen for another
+/// way on.
+constexpr double kWidest = 8.0;
+/// An error of play-back time is made good within about this time, s.
+constexpr double kCatchUpTime = 2.0;
+
+}  // namespace
+
+encoding::PvtEncoding EposAxis::stream_encoding() const {
+  encoding::PvtEncoding encoding = this->encoding();
+  encoding.max_record_ms = kLongestRecord;
+  return encoding;
+}
+
+std::optional<Refusal> EposAxis::plan_stream(HostTime origin, GoalTime rest) {
+  const trajectory::Path standing = trajectory::with_rest(trajectory::Path(rest_position()), rest);
+  const auto stream = encoding::encode_pvt(standing, stream_encoding(), rest_counts_);
+  if (!stream) return stream.error();
+  planned_ = {};
+  planned_.feed.load(stream.value(), {facts_.capacity, parameters_.stream_horizon});
+  planned_.origin = origin;
+  return std::nullopt;
+}
+
+GoalTime EposAxis::stream_lead() const {
+  constexpr double kRecord = 1e-3 * kLongestRecord;
+  const double kept = std::max(parameters_.stream_horizon, RecordFeed::kLeastAhead * kRecord);
+  return GoalTime{kept + kRecord};
+}
+
+HostTime EposAxis::committed() const {
+  if (phase_ != Phase::Moving || !stream_origin_ || feed_.all_sent()) return kNever;
+  return clock_.host_time(1e-3 * static_cast<double>(feed_.sent_knot().sample));
+}
+
+/// Goal seconds per second of the drive from then on: its own rate made good, and what it is ahead or behind.
+double EposAxis::rate_from(double drive_seconds) const {
+  if (clock_.follows_host()) return 1.0;
+  const double due = seconds(clock_.host_time(drive_seconds) - *stream_origin_);
+  const double behind = due - timeline_.at(drive_seconds).count();
+  const double most = 2.0 * PlaybackClock::kMaxError;
+  return std::clamp(1.0 / (1.0 + 1e-6 * clock_.error_ppm()) + behind / kCatchUpTime, 1.0 - most, 1.0 + most);
+}
+
+std::optional<Refusal> EposAxis::plan_follow(const trajectory::Path& path) {
+  const encoding::PvtKnot knot = feed_.sent_knot();
+  const double from = 1e-3 * static_cast<double>(knot.sample);
+  way_on_rate_ = rate_from(from);
+  const trajectory::Path rest = trajectory::remainder(path, timeline_.at(from), way_on_rate_);
+  encoding::PvtEncoding encoding = stream_encoding();
+  auto stream = encoding::encode_pvt(rest, encoding, {0, knot.position, knot.velocity});
+  while (!stream && 2.0 * encoding.bound_counts <= kWidest * parameters_.deviation_bound) {
+    encoding.bound_counts *= 2.0;
+    stream = encoding::encode_pvt(rest, encoding, {0, knot.position, knot.velocity});
+  }
+  if (!stream) return stream.error();
+  way_on_ = std::move(stream.value());
+  return std::nullopt;
+}
+
+void EposAxis::follow() {
+  timeline_.change_rate(1e-3 * static_cast<double>(feed_.sent_knot().sample), way_on_rate_);
+  feed_.replace_unsent(way_on_);
+}
+
+}  // namespace interpolated_motion::axis

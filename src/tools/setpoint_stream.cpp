@@ -1,0 +1,140 @@
+#include "setpoint_stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <control_msgs/JointTrajectoryControllerState.h>
+#include <fmt/format.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+namespace interpolated_motion::tools {
+namespace {
+
+constexpr double kPi = 3.14159265358979324;
+constexpr double kPeriod = 0.02;     // s, of the setpoints
+constexpr double kAmplitude = 0.2;   // rad
+constexpr int kHeld = 25;            // setpoints at the end, all of one position
+constexpr double kTolerance = 1e-3;  // rad, of the rest
+constexpr auto kPatience = std::chrono::seconds(30);
+
+using Clock = std::chrono::steady_clock;
+
+/// 1 Hz, at rest at its begin.
+double sine(double time) { return kAmplitude * (1.0 - std::cos(2.0 * kPi * time)); }
+
+/// The arm as the driver reports it.
+class Arm {
+ public:
+  Arm(ros::NodeHandle& node, const std::string& driver)
+      : subscriber_(node.subscribe(driver + "/state", 10, &Arm::take, this)) {}
+
+  /// False when there is no report in time.
+  bool wait(std::vector<std::string>& names, std::vector<double>& positions) {
+    const auto end = Clock::now() + kPatience;
+    while (ros::ok() && Clock::now() < end) {
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        names = latest_.joint_names;
+        positions = latest_.actual.positions;
+      }
+      if (!positions.empty()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+  }
+
+ private:
+  void take(const control_msgs::JointTrajectoryControllerState::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    latest_ = *message;
+  }
+
+  std::mutex mutex_;
+  control_msgs::JointTrajectoryControllerState latest_;
+  ros::Subscriber subscriber_;
+};
+
+int last_of(const StreamOptions& options) {
+  return static_cast<int>(std::lround(options.duration / kPeriod));
+}
+
+/// Sends the setpoints, each at its time and up to half a period later, and holds the last position. Returns
+/// how many were sent.
+int send(const ros::Publisher& publisher, const StreamOptions& options, const std::vector<std::string>& names,
+         const std::vector<double>& rest) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const int last = last_of(options);
+  const auto begin = Clock::now();
+  const ros::Time stamp = ros::Time::now();
+  int sent = 0;
+  for (int k = 0; k < last + kHeld && ros::ok(); ++k) {
+    const bool lost = unit(random) < options.lost;
+    const double late = unit(random) * kPeriod / 2.0;
+    std::this_thread::sleep_until(begin + std::chrono::duration_cast<Clock::duration>(
+                                              std::chrono::duration<double>(k * kPeriod + late)));
+    if (k % 50 == 0) {
+      std::fputs(
+          fmt::format("{:.0f} of {:.0f} s, {} setpoints sent\n", k * kPeriod, options.duration, sent).c_str(),
+          stdout);
+      std::fflush(stdout);
+    }
+    if (lost) continue;
+    trajectory_msgs::JointTrajectory message;
+    message.header.stamp = stamp + ros::Duration(k * kPeriod);
+    message.joint_names = names;
+    message.points.resize(1);
+    for (const double position : rest)
+      message.points[0].positions.push_back(position + sine(std::min(k, last) * kPeriod));
+    publisher.publish(message);
+    ++sent;
+  }
+  return sent;
+}
+
+/// Waits until the arm rests within the tolerance of `goal`; prints where it is not.
+bool comes_to_rest(Arm& arm, const std::vector<double>& goal) {
+  std::vector<std::string> names;
+  std::vector<double> positions;
+  const auto end = Clock::now() + kPatience;
+  double worst = 0.0;
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    if (!arm.wait(names, positions)) return false;
+    worst = 0.0;
+    for (std::size_t i = 0; i < goal.size(); ++i) worst = std::max(worst, std::abs(positions[i] - goal[i]));
+  } while (worst > kTolerance && ros::ok() && Clock::now() < end);
+  if (worst > kTolerance)
+    std::fputs(fmt::format("a joint rests {:.4f} rad from the last setpoint\n", worst).c_str(), stdout);
+  return worst <= kTolerance;
+}
+
+}  // namespace
+
+bool stream_setpoints(ros::NodeHandle& ros_node, const StreamOptions& options) {
+  Arm arm(ros_node, options.node);
+  const auto publisher =
+      ros_node.advertise<trajectory_msgs::JointTrajectory>(options.node + "/setpoints", 50);
+  std::vector<std::string> names;
+  std::vector<double> rest;
+  if (!arm.wait(names, rest)) {
+    std::fputs(fmt::format("no message on {}/state\n", options.node).c_str(), stdout);
+    return false;
+  }
+  for (int i = 0; i < 100 && publisher.getNumSubscribers() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const int sent = send(publisher, options, names, rest);
+  std::fputs(fmt::format("{} setpoints sent, {} lost\n", sent, last_of(options) + kHeld - sent).c_str(),
+             stdout);
+  std::vector<double> goal = rest;
+  for (double& position : goal) position += sine(last_of(options) * kPeriod);
+  return comes_to_rest(arm, goal);
+}
+
+}  // namespace interpolated_motion::tools
