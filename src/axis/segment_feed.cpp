@@ -144,10 +144,6 @@ double SegmentFeed::next_begin(double elapsed) const {
   return tick_ * static_cast<double>(now.begin + now.ticks);
 }
 
-double SegmentFeed::latest_end() const {
-  return tick_ * static_cast<double>(end_tick_ + (next_ ? next_->ticks : 0));
-}
-
 double SegmentFeed::begin_of(std::size_t number) const {
   const std::size_t forgotten = sent_ - stretches_.size();
   return tick_ * static_cast<double>(stretches_[number - forgotten].begin);

@@ -88,7 +88,7 @@ void SilverlodeAxis::fail_in_motion(const std::string& reason, HostTime now) {
 /// ramp of register 19.
 HostDuration SilverlodeAxis::longest_motion(HostTime now) const {
   const double played = clock_.running() ? clock_.least_elapsed(now) : 0.0;
-  const double queued = std::max(0.0, feed_.latest_end() - played) * (1.0 + parameters_.max_clock_error);
+  const double queued = std::max(0.0, feed_.knot_end() - played) * (1.0 + parameters_.max_clock_error);
   const auto& limits = parameters_.limits;
   const double ramp = parameters_.limit_margin * limits.max_velocity / limits.max_acceleration;
   return host_duration(queued + ramp);

@@ -62,8 +62,6 @@ class SegmentFeed {
   /// When the drive begins segment `number`, counted from 0, one of those sent last.
   double begin_of(std::size_t number) const;
   double duration() const { return queue_end(); }
-  /// Where the queue ends if the segment on its way gets into it as well.
-  double latest_end() const;
 
   /// An instant of the drive's motion.
   struct Instant {
