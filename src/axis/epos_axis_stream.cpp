@@ -45,7 +45,8 @@ GoalTime EposAxis::stream_lead() const {
 
 HostTime EposAxis::committed() const {
   if (phase_ != Phase::Moving || !stream_origin_ || feed_.all_sent()) return kNever;
-  return clock_.host_time(1e-3 * static_cast<double>(feed_.sent_knot().sample));
+  const GoalTime knot = timeline_.at(1e-3 * static_cast<double>(feed_.sent_knot().sample));
+  return *stream_origin_ + host_duration(knot.count());
 }
 
 /// Goal seconds per second of the drive from then on: its own rate made good, and what it is ahead or behind.

@@ -134,8 +134,8 @@ class Axis {
   virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
   /// How far ahead of the present the motion is committed, at most, while a stream is followed.
   virtual GoalTime stream_lead() const = 0;
-  /// Until when the motion can no longer be changed; kNever while the motion has not begun and once its end
-  /// is committed.
+  /// Until when the path can no longer be changed, at host time `origin` + goal time; kNever while the motion
+  /// has not begun and once its end is committed.
   virtual HostTime committed() const = 0;
   /// Encodes the way on along `path`, which is the former one up to committed() and ends at rest. Refused
   /// paths leave the axis as it was. Only while committed() is not kNever.
