@@ -79,6 +79,7 @@ void SilverlodeAxis::poll_braking(HostTime now) {
 void SilverlodeAxis::fail_in_motion(const std::string& reason, HostTime now) {
   fail(reason, now);
   rest_due_ = now + longest_motion(now);
+  heard_stop_ = false;
   clock_.stop();
   enter(Phase::FaultBraking, now);
   start_fault_braking(now);
@@ -96,8 +97,8 @@ HostDuration SilverlodeAxis::longest_motion(HostTime now) const {
 
 void SilverlodeAxis::start_fault_braking(HostTime now) {
   const auto heard = [this](const Outcome& outcome) -> std::optional<std::string> {
-    if (outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused) return std::nullopt;
-    return device_.text(outcome);
+    heard_stop_ = outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused;
+    return heard_stop_ ? std::nullopt : std::optional<std::string>(device_.text(outcome));
   };
   sequence_.start(
       {{silverlode::stp_request(device_.address(), stop_deceleration()), heard}, await_rest(kLooksAtFault)},
@@ -106,7 +107,8 @@ void SilverlodeAxis::start_fault_braking(HostTime now) {
 
 /// A drive that does not answer is told again until its queue must be over and it has braked by itself.
 void SilverlodeAxis::poll_fault_braking(HostTime now) {
-  if (sequence_.running()) return;
+  const bool waits = heard_stop_ || now < rest_due_;
+  if (sequence_.running() && waits) return;
   const bool stands = sequence_.state() == CommandSequence::State::Done;
   if (!stands && now < rest_due_) return start_fault_braking(now);
   if (stands) {
@@ -115,8 +117,10 @@ void SilverlodeAxis::poll_fault_braking(HostTime now) {
     fault_text_ += fmt::format(
         " The drive has not been seen at rest ({}); {:.1f} s after the fault its queue is over, and it has "
         "braked by itself if it still works.",
-        sequence_.failure(), seconds(now - phase_since_));
+        sequence_.running() ? "it does not answer" : sequence_.failure(), seconds(now - phase_since_));
   }
+  device_.drop_requests();
+  sequence_.cancel();
   enter(Phase::Fault, now);
 }
 

@@ -186,7 +186,8 @@ class SilverlodeAxis : public Axis {
   HostTime bring_up_since_{};
   bool configured_ = false;
   std::string fault_text_;
-  HostTime rest_due_{};  ///< of a drive that hears nothing more since a fault was found
+  bool heard_stop_ = false;  ///< whether the drive has answered to STP since then
+  HostTime rest_due_{};      ///< of a drive that hears nothing more since a fault was found
   std::string revision_;
   bool multi_register_ = true;
 
