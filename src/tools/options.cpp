@@ -7,7 +7,7 @@
 namespace interpolated_motion::tools {
 namespace {
 
-double read_number(const std::string& name, const std::string& text, double above, double most) {
+double read_number(const std::string& name, const std::string& text, double least, double most) {
   std::size_t read = 0;
   double value = 0.0;
   try {
@@ -15,9 +15,8 @@ double read_number(const std::string& name, const std::string& text, double abov
   } catch (const std::exception&) {
     read = 0;
   }
-  if (read == 0 || read != text.size() || !(value > above && value <= most)) {
-    throw std::runtime_error(
-        fmt::format("{} {}: give a number above {}, at most {}", name, text, above, most));
+  if (read == 0 || read != text.size() || !(value >= least && value <= most)) {
+    throw std::runtime_error(fmt::format("{} {}: give a number from {} to {}", name, text, least, most));
   }
   return value;
 }
@@ -39,9 +38,9 @@ Options parse_options(const std::vector<std::string>& arguments) {
     if (++i == arguments.size()) throw std::runtime_error(name + " needs a value");
     if (name == "--goal") options.goal_file = arguments[i];
     if (name == "--node") options.node = arguments[i];
-    if (name == "--setpoints") options.setpoints = read_number(name, arguments[i], 0.0, 3600.0);
-    if (name == "--lost") options.lost = read_number(name, arguments[i], -1e-9, 0.9);
-    if (name == "--timeout") options.timeout = read_number(name, arguments[i], 0.0, 1e6);
+    if (name == "--setpoints") options.setpoints = read_number(name, arguments[i], 0.1, 3600.0);
+    if (name == "--lost") options.lost = read_number(name, arguments[i], 0.0, 0.9);
+    if (name == "--timeout") options.timeout = read_number(name, arguments[i], 0.001, 1e6);
   }
   if (options.goal_file.empty() == (options.setpoints == 0.0))
     throw std::runtime_error("give either --goal FILE or --setpoints SECONDS");

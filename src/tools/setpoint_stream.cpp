@@ -103,16 +103,21 @@ bool comes_to_rest(Arm& arm, const std::vector<double>& goal) {
   std::vector<std::string> names;
   std::vector<double> positions;
   const auto end = Clock::now() + kPatience;
-  double worst = 0.0;
+  std::string off;
   do {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (!arm.wait(names, positions)) return false;
-    worst = 0.0;
-    for (std::size_t i = 0; i < goal.size(); ++i) worst = std::max(worst, std::abs(positions[i] - goal[i]));
-  } while (worst > kTolerance && ros::ok() && Clock::now() < end);
-  if (worst > kTolerance)
-    std::fputs(fmt::format("a joint rests {:.4f} rad from the last setpoint\n", worst).c_str(), stdout);
-  return worst <= kTolerance;
+    off.clear();
+    for (std::size_t i = 0; i < goal.size(); ++i) {
+      const double error = positions[i] - goal[i];
+      if (std::abs(error) > kTolerance) off += fmt::format("{} is {:.4f} rad off. ", names[i], error);
+    }
+  } while (!off.empty() && ros::ok() && Clock::now() < end);
+  if (!off.empty()) {
+    off += "Were setpoints refused? The driver's log says why.\n";
+    std::fputs(off.c_str(), stdout);
+  }
+  return off.empty();
 }
 
 }  // namespace

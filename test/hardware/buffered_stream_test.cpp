@@ -19,11 +19,13 @@ using motion::GroupState;
 struct Arm {
   const char* name;
   YAML::Node (*parameters)(const std::string& changes);
-  double lead;          ///< s that the drives of the arm know ahead, see docs/setpoints.md
-  double deviation;     ///< counts, of the demand from the path, at every sample
-  double duration;      ///< s, of the long streams
-  double acceleration;  ///< rad/s^2, of the demand, beyond the limit: by rounding (EPOS), by the bound
-                        ///< (SilverLode)
+  double lead;             ///< s that the drives of the arm know ahead, see docs/setpoints.md
+  double deviation;        ///< counts, of the demand from the path, at every sample
+  double with_own_clocks;  ///< counts, the same where the drives' clocks are not the host's: bounds may be
+                           ///< doubled
+  double duration;         ///< s, of the long streams
+  double acceleration;     ///< rad/s^2, of the demand, beyond the limit: by rounding (EPOS), by the bound
+                           ///< (SilverLode)
 };
 
 std::ostream& operator<<(std::ostream& out, const Arm& arm) { return out << arm.name; }
@@ -143,7 +145,7 @@ TEST_P(BufferedStream, StaysTogetherOnDrivesWithOtherClocks) {
   // Without correction the joints would be 0.6 ms per second apart. What is left: the uncertainty of two
   // clocks, a sample each, and what is made good in seconds.
   EXPECT_NEAR(desired[0].position, desired[5].position, 0.005 * kAmplitude * 2.0 * 3.1416);
-  EXPECT_LE(worst_deviation(), GetParam().deviation);
+  EXPECT_LE(worst_deviation(), GetParam().with_own_clocks);
   EXPECT_EQ(underruns(), 0U);
 }
 
@@ -170,9 +172,10 @@ TEST_F(SetpointStreaming, WithoutRidingThroughEposDrivesBrakeAtEveryGap) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Arms, BufferedStream,
-                         testing::Values(Arm{"epos", six_axis, 0.125, 4.0, 60.0, 2.0},
-                                         Arm{"silverlode", six_axis_silverlode, 0.244, 512.0, 10.0, 4.0},
-                                         Arm{"mixed", six_axis_mixed, 0.244, 512.0, 10.0, 4.0}),
+                         testing::Values(Arm{"epos", six_axis, 0.125, 1.0, 2.0, 60.0, 2.0},
+                                         Arm{"silverlode", six_axis_silverlode, 0.244, 512.0, 512.0, 10.0,
+                                             4.0},
+                                         Arm{"mixed", six_axis_mixed, 0.244, 512.0, 512.0, 10.0, 4.0}),
                          [](const auto& arm) { return std::string(arm.param.name); });
 
 }  // namespace
