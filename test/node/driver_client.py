@@ -68,19 +68,27 @@ class Sender:
         if not self._client.wait_for_server(rospy.Duration(PATIENCE)):
             raise AssertionError('no action server %s within %g s' % (action, PATIENCE))
         self._handle = None
+        self._known = None
         self._ended = None
 
     def send(self, sent, feedback=None):
+        known = threading.Event()
         ended = threading.Event()
+        self._known = known
         self._ended = ended
 
         def transition(handle):
+            known.set()
             if handle.get_comm_state() == actionlib.CommState.DONE:
                 ended.set()
 
         self._handle = self._client.send_goal(sent, transition, lambda _, message: feedback(message) if feedback else None)
 
     def cancel(self):
+        """Cancels the goal once the server knows it: actionlib's client takes a goal that it cancelled earlier for lost when a
+        status message from before the goal arrives."""
+        if not self._known.wait(PATIENCE):
+            raise AssertionError('the goal was not acknowledged within %g s' % PATIENCE)
         self._handle.cancel()
 
     def is_active(self):
