@@ -15,6 +15,28 @@ from pathlib import Path
 LINTS = ("format", "includes", "catkin", "tidy")
 
 
+def cases_of(result):
+    """The cases in a result file. rostest writes one case, testNAME, for each program NAME that it ran, whose own cases are in
+    rosunit-NAME.xml beside it: these count, and rostest's own only where there are none, or where it alone has failed."""
+    cases = []
+    for case in ElementTree.parse(result).getroot().iter("testcase"):
+        inner = result.with_name("rosunit-" + re.sub("^test", "", case.get("name", "")) + ".xml")
+        if not result.name.startswith("rostest-") or not inner.exists():
+            cases.append(case)
+            continue
+        inner_cases = list(ElementTree.parse(inner).getroot().iter("testcase"))
+        cases += inner_cases
+        if not inner_cases or problem_of(case) is not None and all(problem_of(inner_case) is None for inner_case in inner_cases):
+            cases.append(case)
+    return cases
+
+
+def problem_of(case):
+    """The <failure> or <error> of a test case, if it has one."""
+    failure = case.find("failure")
+    return failure if failure is not None else case.find("error")
+
+
 class Tally:
     def __init__(self):
         self.passed = 0
@@ -22,9 +44,7 @@ class Tally:
         self.failures = []  # (name, message)
 
     def add_case(self, name, case):
-        problem = case.find("failure")
-        if problem is None:
-            problem = case.find("error")
+        problem = problem_of(case)
         if problem is not None:
             self.failures.append((name, problem.get("message") or problem.text or ""))
         elif case.find("skipped") is not None or case.get("status") == "notrun" or case.get("result") in ("skipped", "suppressed"):
@@ -36,7 +56,7 @@ class Tally:
         """Counts the cases of one test program; `result` is its XML file, `succeeded` whether ctest saw it pass."""
         before = len(self.failures)
         try:
-            cases = list(ElementTree.parse(result).getroot().iter("testcase"))
+            cases = cases_of(result)
         except (OSError, ElementTree.ParseError) as error:
             self.failures.append((test, f"no readable result: {error}"))
             return
@@ -72,8 +92,9 @@ def run_ctest(build, tally):
     if not tests:
         tally.failures.append(("ctest", "no test is registered"))
         return
-    for result in tests.values():
-        result.unlink(missing_ok=True)
+    for folder in {result.parent for result in tests.values()}:
+        for result in folder.glob("*.xml"):
+            result.unlink()
     failed_log = build / "Testing" / "Temporary" / "LastTestsFailed.log"
     failed_log.unlink(missing_ok=True)
     status = subprocess.call(["ctest", "--output-on-failure", "--timeout", "600", "-j", str(os.cpu_count())], cwd=build)

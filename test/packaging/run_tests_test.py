@@ -44,3 +44,36 @@ def test_a_program_that_ran_nothing_is_a_failure(tmp_path):
 def test_a_program_that_crashed_after_its_last_case_is_a_failure(tmp_path):
     xml = '<testsuite><testcase name="x"/></testsuite>'
     assert tally_of(tmp_path, xml, succeeded=False).closing_line() == "1 passed, 1 failed"
+
+
+def tally_of_rostest(tmp_path, outer, inner, succeeded):
+    (tmp_path / "rostest-some.xml").write_text(f'<testsuite><testcase classname="RosTest" name="testarm">{outer}</testcase></testsuite>')
+    if inner is not None:
+        (tmp_path / "rosunit-arm.xml").write_text(f"<testsuite>{inner}</testsuite>")
+    tally = run_tests.Tally()
+    tally.add_result("some.test", tmp_path / "rostest-some.xml", succeeded)
+    return tally
+
+
+PASSED = '<testcase name="x"/>'
+FAILED = '<testcase name="y"><failure type="AssertionError">9 != 2</failure></testcase>'
+PROBLEM = '<failure message="test failed"/>'
+
+
+def test_the_cases_of_a_rostest_program_are_counted_one_by_one(tmp_path):
+    assert tally_of_rostest(tmp_path, "", PASSED + PASSED, True).closing_line() == "2 passed, 0 failed"
+
+
+def test_a_failed_case_of_a_rostest_program_is_named(tmp_path):
+    tally = tally_of_rostest(tmp_path, "", PASSED + FAILED, False)
+    assert tally.closing_line() == "1 passed, 1 failed"
+    assert tally.failures[0][1] == "9 != 2"
+
+
+def test_a_rostest_program_that_failed_beyond_its_cases_is_a_failure(tmp_path):
+    assert tally_of_rostest(tmp_path, PROBLEM, PASSED, False).closing_line() == "1 passed, 1 failed"
+    assert tally_of_rostest(tmp_path, PROBLEM, "", False).closing_line() == "0 passed, 1 failed"
+
+
+def test_a_rostest_program_without_result_is_a_failure(tmp_path):
+    assert tally_of_rostest(tmp_path, PROBLEM, None, False).closing_line() == "0 passed, 1 failed"
