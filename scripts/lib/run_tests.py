@@ -20,7 +20,7 @@ def cases_of(result):
     rosunit-NAME.xml beside it: these count, and rostest's own only where there are none, or where it alone has failed."""
     cases = []
     for case in ElementTree.parse(result).getroot().iter("testcase"):
-        inner = result.with_name("rosunit-" + re.sub("^test", "", case.get("name", "")) + ".xml")
+        inner = result.parent / ("rosunit-" + re.sub("^test", "", case.get("name", "")) + ".xml")
         if not result.name.startswith("rostest-") or not inner.exists():
             cases.append(case)
             continue

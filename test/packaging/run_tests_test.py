@@ -17,7 +17,7 @@ def tally_of(tmp_path, xml, succeeded=True):
 
 
 def test_cases_are_counted_one_by_one(tmp_path):
-    tally = tally_of(tmp_path, """<testsuites><testsuite name="a"><testcase name="x" status="run"/><testcase name="y" status="run">
+    tally = tally_of(tmp_path, """<testsuites><testsuite name="a"><testcase name="x/0" status="run"/><testcase name="y" status="run">
         <failure message="expected 1, got 2"/></testcase><testcase name="z" status="notrun"/></testsuite>
         <testsuite name="b"><testcase name="x"/><testcase name="e"><error type="boom">text</error></testcase></testsuite></testsuites>""",
                      succeeded=False)
