@@ -87,14 +87,21 @@ def readable(ctest_name):
     return re.sub(r"^_ctest_[a-z_]+?_(gtest|rostest|pytest)_", "", ctest_name)
 
 
+def remove_old(results):
+    """Removes what an earlier run left of these result files, and of the programs that rostest ran for them; nothing else."""
+    for result in results:
+        result.unlink(missing_ok=True)
+        if result.name.startswith("rostest-"):
+            for inner in result.parent.glob("rosunit-*.xml"):
+                inner.unlink()
+
+
 def run_ctest(build, tally):
     tests = ctest_tests(build)
     if not tests:
         tally.failures.append(("ctest", "no test is registered"))
         return
-    for folder in {result.parent for result in tests.values()}:
-        for result in folder.glob("*.xml"):
-            result.unlink()
+    remove_old(tests.values())
     failed_log = build / "Testing" / "Temporary" / "LastTestsFailed.log"
     failed_log.unlink(missing_ok=True)
     status = subprocess.call(["ctest", "--output-on-failure", "--timeout", "600", "-j", str(os.cpu_count())], cwd=build)

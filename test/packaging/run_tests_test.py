@@ -77,3 +77,16 @@ def test_a_rostest_program_that_failed_beyond_its_cases_is_a_failure(tmp_path):
 
 def test_a_rostest_program_without_result_is_a_failure(tmp_path):
     assert tally_of_rostest(tmp_path, PROBLEM, None, False).closing_line() == "0 passed, 1 failed"
+
+
+def test_results_of_an_earlier_run_are_removed_and_nothing_else(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    results = tmp_path / "results"
+    results.mkdir()
+    old = [results / "gtest-some.xml", results / "rostest-some.xml", results / "rosunit-arm.xml"]
+    kept = [tmp_path / "package.xml", results / "other.xml"]
+    for file in old + kept:
+        file.write_text("<testsuite/>")
+    run_tests.remove_old([old[0], old[1], results / "never-ran.xml", Path("no-result-file")])
+    assert not any(file.exists() for file in old)
+    assert all(file.exists() for file in kept)
