@@ -6,21 +6,14 @@
 
 namespace interpolated_motion::node {
 
-TrajectoryActionServer::TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware,
-                                               double monitor_rate)
+TrajectoryActionServer::TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware)
     : hardware_(hardware),
       node_(node),
       server_(
           node_, "follow_joint_trajectory", [this](const Handle& handle) { on_goal(handle); },
-          [this](const Handle& handle) { on_cancel(handle); }, false),
-      feedback_timer_(node_.createSteadyTimer(
-          ros::WallDuration(1.0 / monitor_rate), [this](const ros::SteadyTimerEvent&) { publish_feedback(); },
-          false, false)) {}
+          [this](const Handle& handle) { on_cancel(handle); }, false) {}
 
-void TrajectoryActionServer::start() {
-  server_.start();
-  feedback_timer_.start();
-}
+void TrajectoryActionServer::start() { server_.start(); }
 
 void TrajectoryActionServer::on_goal(Handle handle) {
   const auto answer = hardware_.call([goal = to_goal(*handle.getGoal())](auto& hardware, HostTime now) {

@@ -86,10 +86,7 @@ void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status) {
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const HardwareThread& hardware,
                          const hardware::Configuration& configuration, const WireLog* wire_log)
-    : hardware_(hardware),
-      updater_(node, node),
-      timer_(node.createSteadyTimer(ros::WallDuration(1.0),
-                                    [this](const ros::SteadyTimerEvent&) { update(); })) {
+    : hardware_(hardware), updater_(node, node) {
   updater_.setHardwareID("none");
   updater_.add("group", [this](DiagnosticStatus& status) { diagnose_group(snapshot_, status); });
   for (const auto& bus : configuration.buses) add_bus(bus);
@@ -115,7 +112,7 @@ void Diagnostics::add_bus(const hardware::BusConfiguration& bus) {
   });
 }
 
-void Diagnostics::update() {
+void Diagnostics::publish() {
   hardware_.snapshot(snapshot_);
   updater_.force_update();
 }

@@ -11,8 +11,9 @@ namespace interpolated_motion::node {
 namespace {
 
 constexpr HostDuration kShutdownPatience = std::chrono::seconds(2);
-/// How long the command thread sleeps at most before it looks whether to stop.
-const ros::WallDuration kGlance(0.1);
+/// How often the node looks how far the drives have come up.
+const ros::WallDuration kBringUpGlance(0.02);
+constexpr double kDiagnosticsRate = 1.0;  ///< Hz
 
 ros::NodeHandle private_node(ros::CallbackQueue& queue) {
   ros::NodeHandle node("~");
@@ -30,26 +31,33 @@ std::unique_ptr<WireLog> open_wire_log(const LoadedConfiguration& configuration)
 }  // namespace
 
 DriverNode::DriverNode(const LoadedConfiguration& configuration)
-    : wire_log_(open_wire_log(configuration)),
+    : commanding_(host_now()),
+      publishing_(host_now()),
+      wire_log_(open_wire_log(configuration)),
       hardware_(start_hardware(configuration)),
-      action_(private_node(command_queue_), *hardware_, configuration.node.action_monitor_rate),
+      action_(private_node(command_queue_), *hardware_),
       command_(private_node(command_queue_), *hardware_, configuration.driver.joints),
       setpoints_(private_node(command_queue_), *hardware_),
       queries_(private_node(command_queue_), *hardware_, configuration.driver.joints,
                configuration.node.emulated_samples),
       controls_(private_node(service_queue_), *hardware_),
-      states_(private_node(publish_queue_), *hardware_, configuration.node.state_publish_rate),
-      status_(private_node(publish_queue_), *hardware_, configuration.node.status_publish_rate),
+      states_(private_node(publish_queue_), *hardware_),
+      status_(private_node(publish_queue_), *hardware_),
       diagnostics_(private_node(publish_queue_), *hardware_, configuration.driver, wire_log_.get()),
       bring_up_(configuration.driver.enable_on_start),
-      bring_up_timer_(
-          private_node(command_queue_)
-              .createSteadyTimer(ros::WallDuration(0.02), [this](const auto&) { watch_bring_up(); })),
-      publish_spinner_(1, &publish_queue_),
+      publisher_(publish_queue_, publishing_),
       service_spinner_(1, &service_queue_) {
   if (configuration.node.allow_fault_injection) {
     faults_ = std::make_unique<FaultInjection>(private_node(command_queue_), *hardware_);
   }
+  call_periodically(configuration.node);
+}
+
+void DriverNode::call_periodically(const NodeParameters& parameters) {
+  commanding_.add(parameters.action_monitor_rate, [this] { action_.publish_feedback(); });
+  publishing_.add(parameters.state_publish_rate, [this] { states_.publish(); });
+  publishing_.add(parameters.status_publish_rate, [this] { status_.publish(); });
+  publishing_.add(kDiagnosticsRate, [this] { diagnostics_.publish(); });
 }
 
 std::unique_ptr<HardwareThread> DriverNode::start_hardware(const LoadedConfiguration& configuration) {
@@ -99,13 +107,16 @@ void DriverNode::log(const HardwareThread::Hardware::LogEntry& entry) {
   }
 }
 
-void DriverNode::watch_bring_up() {
-  hardware_->snapshot(snapshot_);
-  if (!bring_up_.update(snapshot_.state)) {
+void DriverNode::bring_up(const std::function<bool()>& running) {
+  while (running()) {
+    hardware_->snapshot(snapshot_);
+    if (bring_up_.update(snapshot_.state)) return announce();
     ROS_INFO_STREAM_THROTTLE(5.0, "waiting for the drives: " << motion::to_string(snapshot_.state));
-    return;
+    command_queue_.callAvailable(kBringUpGlance);
   }
-  bring_up_timer_.stop();
+}
+
+void DriverNode::announce() {
   action_.start();
   if (snapshot_.state == motion::GroupState::Fault) {
     ROS_ERROR_STREAM("the drives are in fault: " << snapshot_.fault);
@@ -115,9 +126,11 @@ void DriverNode::watch_bring_up() {
 }
 
 int DriverNode::run(const volatile std::sig_atomic_t& stop) {
-  publish_spinner_.start();
+  const auto running = [&] { return stop == 0 && ros::ok() && !failed_; };
+  publisher_.start();
   service_spinner_.start();
-  while (stop == 0 && ros::ok() && !failed_) command_queue_.callAvailable(kGlance);
+  bring_up(running);
+  while (running()) serve_once(command_queue_, commanding_);
   return finish();
 }
 
@@ -127,7 +140,7 @@ int DriverNode::finish() {
   // What the bus thread has said last: results of goals that the stop has ended, or why it failed.
   command_queue_.callAvailable();
   service_spinner_.stop();
-  publish_spinner_.stop();
+  publisher_.stop();
   publish_queue_.callAvailable();
   if (wire_log_ && wire_log_->lost() > 0) {
     ROS_WARN_STREAM(wire_log_->lost() << " frames are missing in " << wire_log_->path());

@@ -4,12 +4,10 @@
 
 namespace interpolated_motion::node {
 
-StatePublisher::StatePublisher(ros::NodeHandle node, const HardwareThread& hardware, double rate)
+StatePublisher::StatePublisher(ros::NodeHandle node, const HardwareThread& hardware)
     : hardware_(hardware),
       state_publisher_(node.advertise<control_msgs::JointTrajectoryControllerState>("state", 1)),
-      joint_state_publisher_(node.advertise<sensor_msgs::JointState>("/joint_states", 1)),
-      timer_(node.createSteadyTimer(ros::WallDuration(1.0 / rate),
-                                    [this](const ros::SteadyTimerEvent&) { publish(); })) {}
+      joint_state_publisher_(node.advertise<sensor_msgs::JointState>("/joint_states", 1)) {}
 
 void StatePublisher::publish() {
   hardware_.snapshot(snapshot_);

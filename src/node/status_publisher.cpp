@@ -4,12 +4,10 @@
 
 namespace interpolated_motion::node {
 
-StatusPublisher::StatusPublisher(ros::NodeHandle node, const HardwareThread& hardware, double rate)
+StatusPublisher::StatusPublisher(ros::NodeHandle node, const HardwareThread& hardware)
     : hardware_(hardware),
       buffer_status_publisher_(node.advertise<interpolated_motion_driver::BufferStatus>("buffer_status", 1)),
-      drive_states_publisher_(node.advertise<interpolated_motion_driver::DriveState>("drive_states", 1)),
-      timer_(node.createSteadyTimer(ros::WallDuration(1.0 / rate),
-                                    [this](const ros::SteadyTimerEvent&) { publish(); })) {}
+      drive_states_publisher_(node.advertise<interpolated_motion_driver::DriveState>("drive_states", 1)) {}
 
 void StatusPublisher::publish() {
   hardware_.snapshot(snapshot_);

@@ -6,7 +6,6 @@
 #include <actionlib/server/action_server.h>
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <ros/node_handle.h>
-#include <ros/steady_timer.h>
 
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
@@ -19,8 +18,8 @@ namespace interpolated_motion::node {
 /// the one thread that serves the node handle's callback queue.
 class TrajectoryActionServer {
  public:
-  /// Clients do not see the server before start(). `monitor_rate`: Hz, of the feedback.
-  TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware, double monitor_rate);
+  /// Clients do not see the server before start().
+  TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware);
 
   /// Announces the server: from now on goals are taken.
   void start();
@@ -29,13 +28,15 @@ class TrajectoryActionServer {
   /// are ignored.
   void goal_ended(const motion::GoalResult& result);
 
+  /// Tells the client of the goal under way where the joints are, if there is one.
+  void publish_feedback();
+
  private:
   using Server = actionlib::ActionServer<control_msgs::FollowJointTrajectoryAction>;
   using Handle = Server::GoalHandle;
 
   void on_goal(Handle handle);
   void on_cancel(const Handle& handle);
-  void publish_feedback();
 
   HardwareThread& hardware_;
   ros::NodeHandle node_;
@@ -43,7 +44,6 @@ class TrajectoryActionServer {
   motion::Snapshot snapshot_;
   control_msgs::FollowJointTrajectoryFeedback feedback_;
   Server server_;
-  ros::SteadyTimer feedback_timer_;
 };
 
 }  // namespace interpolated_motion::node

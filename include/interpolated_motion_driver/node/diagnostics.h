@@ -5,7 +5,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <ros/steady_timer.h>
 
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/node/hardware_thread.h"
@@ -25,22 +24,22 @@ void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticSta
 /// The wire log: WARN when frames are missing in it.
 void diagnose_wire_log(const WireLog& log, DiagnosticStatus& status);
 
-/// Publishes `/diagnostics` once per second.
+/// Publishes `/diagnostics`.
 class Diagnostics {
  public:
   /// `wire_log` may be null. What is pointed to must live longer.
   Diagnostics(const ros::NodeHandle& node, const HardwareThread& hardware,
               const hardware::Configuration& configuration, const WireLog* wire_log);
 
+  void publish();
+
  private:
   void add_drive(const std::string& joint);
   void add_bus(const hardware::BusConfiguration& bus);
-  void update();
 
   const HardwareThread& hardware_;
   motion::Snapshot snapshot_;
   diagnostic_updater::Updater updater_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace interpolated_motion::node

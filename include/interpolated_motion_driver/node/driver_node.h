@@ -2,13 +2,13 @@
 
 #include <atomic>
 #include <csignal>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <ros/steady_timer.h>
 
 #include "interpolated_motion_driver/node/action_server.h"
 #include "interpolated_motion_driver/node/bring_up.h"
@@ -18,7 +18,9 @@
 #include "interpolated_motion_driver/node/fault_injection.h"
 #include "interpolated_motion_driver/node/hardware_thread.h"
 #include "interpolated_motion_driver/node/load_configuration.h"
+#include "interpolated_motion_driver/node/periodic_calls.h"
 #include "interpolated_motion_driver/node/query_services.h"
+#include "interpolated_motion_driver/node/queue_thread.h"
 #include "interpolated_motion_driver/node/setpoint_topic.h"
 #include "interpolated_motion_driver/node/state_publisher.h"
 #include "interpolated_motion_driver/node/status_publisher.h"
@@ -28,7 +30,7 @@ namespace interpolated_motion::node {
 
 /// The ROS side of the driver. Four threads:
 /// - the bus thread (HardwareThread) owns drives and buses;
-/// - commands: action, `~command`, `~query_state` (the caller of run());
+/// - commands: action, `~command`, `~setpoints`, `~query_state` (the caller of run());
 /// - publishing: everything that is published at a rate, and the log;
 /// - services: requests that take seconds.
 /// Each part lives in one of the last three, so no part needs a lock.
@@ -46,12 +48,16 @@ class DriverNode {
   std::unique_ptr<HardwareThread> start_hardware(const LoadedConfiguration& configuration);
   HardwareThread::Listener listener();
   void log(const HardwareThread::Hardware::LogEntry& entry);
-  void watch_bring_up();
+  void call_periodically(const NodeParameters& parameters);
+  void bring_up(const std::function<bool()>& running);
+  void announce();
   int finish();
 
   ros::CallbackQueue command_queue_;
   ros::CallbackQueue publish_queue_;
   ros::CallbackQueue service_queue_;
+  PeriodicCalls commanding_;
+  PeriodicCalls publishing_;
 
   std::unique_ptr<WireLog> wire_log_;
   std::atomic<bool> failed_{false};
@@ -69,9 +75,8 @@ class DriverNode {
 
   BringUp bring_up_;
   motion::Snapshot snapshot_;
-  ros::SteadyTimer bring_up_timer_;
 
-  ros::AsyncSpinner publish_spinner_;
+  QueueThread publisher_;
   ros::AsyncSpinner service_spinner_;
 };
 

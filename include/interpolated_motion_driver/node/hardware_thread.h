@@ -36,8 +36,8 @@ class HardwareThread {
   };
 
   struct Settings {
-    HostDuration loop_period = std::chrono::milliseconds(5);  ///< longest sleep
-    int realtime_priority = 0;                                ///< SCHED_FIFO, 0: off
+    HostDuration loop_period = std::chrono::milliseconds(20);  ///< longest sleep
+    int realtime_priority = 0;                                 ///< SCHED_FIFO, 0: off
   };
 
   /// Makes the hardware that is to wait in the loop given, on the caller's thread.

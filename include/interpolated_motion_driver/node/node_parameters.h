@@ -13,7 +13,7 @@ struct NodeParameters {
   double state_publish_rate = 50.0;   ///< Hz, of ~state and /joint_states
   double action_monitor_rate = 20.0;  ///< Hz, of the action's feedback
   double status_publish_rate = 10.0;  ///< Hz, of ~buffer_status and ~drive_states
-  double loop_period = 0.005;         ///< s, the bus thread sleeps no longer than this
+  double loop_period = 0.02;          ///< s, the bus thread sleeps no longer than this
   int realtime_priority = 0;          ///< SCHED_FIFO priority of the bus thread; 0: the normal scheduler
   std::string wire_log;               ///< file for all bus traffic; empty: none
   std::string

@@ -3,7 +3,6 @@
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/steady_timer.h>
 #include <sensor_msgs/JointState.h>
 
 #include "interpolated_motion_driver/motion/snapshot.h"
@@ -11,22 +10,20 @@
 
 namespace interpolated_motion::node {
 
-/// Publishes `~state` and `/joint_states` at a fixed rate, once the drives have told where they are.
+/// Publishes `~state` and `/joint_states`, once the drives have told where they are.
 class StatePublisher {
  public:
-  /// `rate`: Hz.
-  StatePublisher(ros::NodeHandle node, const HardwareThread& hardware, double rate);
+  StatePublisher(ros::NodeHandle node, const HardwareThread& hardware);
 
- private:
   void publish();
 
+ private:
   const HardwareThread& hardware_;
   motion::Snapshot snapshot_;
   control_msgs::JointTrajectoryControllerState state_;
   sensor_msgs::JointState joint_state_;
   ros::Publisher state_publisher_;
   ros::Publisher joint_state_publisher_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace interpolated_motion::node

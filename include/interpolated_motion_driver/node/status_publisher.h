@@ -4,29 +4,26 @@
 #include <interpolated_motion_driver/DriveState.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/steady_timer.h>
 
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/node/hardware_thread.h"
 
 namespace interpolated_motion::node {
 
-/// Publishes `~buffer_status` and `~drive_states` at a fixed rate, from the start of the node on.
+/// Publishes `~buffer_status` and `~drive_states`, from the start of the node on.
 class StatusPublisher {
  public:
-  /// `rate`: Hz.
-  StatusPublisher(ros::NodeHandle node, const HardwareThread& hardware, double rate);
+  StatusPublisher(ros::NodeHandle node, const HardwareThread& hardware);
 
- private:
   void publish();
 
+ private:
   const HardwareThread& hardware_;
   motion::Snapshot snapshot_;
   interpolated_motion_driver::BufferStatus buffer_status_;
   interpolated_motion_driver::DriveState drive_states_;
   ros::Publisher buffer_status_publisher_;
   ros::Publisher drive_states_publisher_;
-  ros::SteadyTimer timer_;
 };
 
 }  // namespace interpolated_motion::node
