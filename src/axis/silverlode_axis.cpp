@@ -26,6 +26,9 @@ constexpr HostDuration kRestPeriod = 100ms;
 constexpr HostDuration kSilentPeriod = 1s;
 /// Periods after which a question no longer waits for an idle line.
 constexpr int kOverdue = 4;
+/// The part of `feedback_timeout` after which it no longer waits for segments: a line that is slower than
+/// planned has always one waiting. Every other question is for the position, and an answer takes its time.
+constexpr int kPartOfTimeout = 3;
 
 void require_finite(const SilverlodeAxisParameters& parameters, double value, const char* name) {
   if (std::isfinite(value) && value > 0.0) return;
@@ -235,10 +238,12 @@ void SilverlodeAxis::reset_fault(HostTime now) {
 /// Asks the drive for its status when the line has nothing better to do, and after a while even if it has.
 void SilverlodeAxis::look_at_drive(HostTime now) {
   if (phase_ == Phase::Offline || phase_ == Phase::Probing || phase_ == Phase::Configuring) return;
-  if (status_.asking() || line_.bulk_waits()) return;
+  if (status_.asking()) return;
   const HostDuration waited = now - status_.asked_at();
   const HostDuration period = look_period();
-  if (waited < period || (!line_.idle() && waited < kOverdue * period)) return;
+  const HostDuration overdue =
+      line_.bulk_waits() ? parameters_.feedback_timeout / kPartOfTimeout : kOverdue * period;
+  if (waited < period || (!line_.idle() && waited < overdue)) return;
   status_.ask(is_motion_phase(), multi_register_, now);
 }
 
