@@ -12,12 +12,11 @@ namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr int kHostPort = 0;
-/// A drive answers at one of its next samples, and the answers of all drives to a SYNC take some milliseconds
-/// on the bus: so long after a frame the drives are looked after that often, else as often as they have
-/// something to say by themselves (heartbeats, emergencies).
-constexpr HostDuration kAttentiveWait = std::chrono::milliseconds(2);
+/// A drive answers a frame at its next sample, so there is something on the bus of the drives after that
+/// time. As long as there is, the drives are looked after that often, else as often as they have something to
+/// say by themselves (heartbeats, emergencies).
+constexpr HostDuration kAnswered = std::chrono::milliseconds(2);
 constexpr HostDuration kIdleWait = std::chrono::milliseconds(10);
-constexpr HostDuration kAttentive = std::chrono::milliseconds(4);
 constexpr double kSample = 1e-3;  // s
 
 transport::SocketcanParameters interface_parameters(const CanDrives& list) {
@@ -66,8 +65,8 @@ void CanServer::turn() {
   take_frames();
   run_drives(now);
   send_frames(now);
-  const bool attentive = now - last_frame_ < kAttentive;
-  turn_at(now + (attentive ? kAttentiveWait : kIdleWait));
+  const bool talking = now - last_frame_ < kAnswered || bus_.next_event() != kNever;
+  turn_at(now + (talking ? kAnswered : kIdleWait));
 }
 
 void CanServer::follow_interface(HostTime now) {
@@ -113,7 +112,6 @@ void CanServer::run_drives(HostTime now) {
     while (const auto frame = bus_.host().receive()) {
       if (frame->own) continue;
       outgoing_.push_back(frame->frame);
-      last_frame_ = now;
     }
   } while (world_.now() < now);
 }

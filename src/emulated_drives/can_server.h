@@ -37,7 +37,7 @@ class CanServer : public Server {
   std::string nodes_;
   std::list<SampleFile> samples_;
   bool waiting_ = false;
-  HostTime last_frame_{};
+  HostTime last_frame_{};  ///< from the host
   std::deque<canopen::Frame> outgoing_;
 };
 

@@ -14,8 +14,6 @@ namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
-/// About five characters at 57600 bit/s.
-constexpr HostDuration kShortestWait = std::chrono::milliseconds(1);
 constexpr double kLongestUnplugged = 3600.0;  // s
 
 }  // namespace
@@ -84,12 +82,11 @@ void SerialServer::plug_in() {
 void SerialServer::turn() {
   const HostTime now = transport::read_host_clock();
   if (now >= plug_in_at_) plug_in();
+  if (!waiting_) take_characters();
   wait_for_characters();
-  take_characters();
   run_drives(now);
-  // A drive says nothing unless it was asked, so only what is on the line needs a turn.
-  const HostTime next = std::min({line_.next_event(), plug_in_at_, now + kLongestWait});
-  turn_at(std::max(next, now + kShortestWait));
+  // A drive says nothing unless it was asked, so only the ends of texts on the line need a turn.
+  turn_at(std::min({line_.next_text_end(), plug_in_at_, now + kLongestWait}));
 }
 
 void SerialServer::wait_for_characters() {
@@ -113,12 +110,14 @@ void SerialServer::take_characters() {
 }
 
 void SerialServer::run_drives(HostTime now) {
-  std::string outgoing;
+  const std::uint64_t before = line_.host_wakeups();
   do {
     world_.advance(now);
-    while (const auto character = line_.host().receive()) outgoing += character->value;
   } while (world_.now() < now);
-  if (terminal_ && !outgoing.empty()) terminal_->send(outgoing, now);
+  if (line_.host_wakeups() == before) return;
+  std::string outgoing;
+  while (const auto character = line_.host().receive()) outgoing += character->value;
+  if (terminal_) terminal_->send(outgoing, now);
 }
 
 }  // namespace interpolated_motion::emulated_drives

@@ -12,7 +12,8 @@
 namespace interpolated_motion::emulated_drives {
 
 /// Emulated SilverLode drives on a pseudo-terminal. A pseudo-terminal passes characters at once: on the
-/// drives' line they take the time they take on a wire.
+/// drives' line they take the time they take on a wire. What drives say is passed on at its CR, or once they
+/// are silent for two characters, like by a USB adapter that sends what it has at such a character.
 class SerialServer : public Server {
  public:
   /// Throws std::invalid_argument for drives that cannot be, std::runtime_error for a link or a folder of

@@ -48,6 +48,15 @@ struct VirtualSerialLine::Talker {
   HostTime next_start(HostTime now) const {
     return waiting.empty() || talking ? kNever : std::max(waiting.front().earliest, now);
   }
+
+  /// Characters from the one under way on, up to the first CR.
+  std::int64_t characters_to_text_end() const {
+    if (talking && value == '\r') return 1;
+    const auto is_return = [](const Queued& queued) { return queued.value == '\r'; };
+    const auto last = std::find_if(waiting.begin(), waiting.end(), is_return);
+    const auto characters = last - waiting.begin() + (last == waiting.end() ? 0 : 1);
+    return characters + (talking ? 1 : 0);
+  }
 };
 
 /// What receivers make of a wire: locked on one character until its last bit.
@@ -143,6 +152,17 @@ void VirtualSerialLine::queue(Talker& talker, std::string_view text, HostTime wh
   const HostTime earliest = std::max(when, clock_);
   for (const char value : text) talker.waiting.push_back({value, earliest});
   schedule();
+}
+
+HostTime VirtualSerialLine::next_text_end() const {
+  HostTime next = host_idle_at_;
+  for (const Talker& talker : talkers_) {
+    const std::int64_t characters = talker.characters_to_text_end();
+    if (characters == 0) continue;
+    const HostTime start = talker.talking ? talker.start : talker.next_start(clock_);
+    next = std::min(next, start + duration(characters));
+  }
+  return next;
 }
 
 void VirtualSerialLine::process(HostTime now) {

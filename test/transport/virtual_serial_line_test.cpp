@@ -99,6 +99,29 @@ TEST_F(VirtualSerialLineTest, TheHostIsWokenAtACarriageReturnOrAnIdleLine) {
   EXPECT_EQ(line.next_event(), kNever);
 }
 
+TEST_F(VirtualSerialLineTest, TellsWhenTheNextTextEnds) {
+  EXPECT_EQ(line.next_text_end(), kNever);
+  ASSERT_TRUE(line.host().send("@16 0\r@17", at_us(1000)));
+  EXPECT_EQ(line.next_text_end(), at_us(7600)) << "six characters";
+  line.process(at_us(7000));
+  EXPECT_EQ(line.next_text_end(), at_us(7600)) << "the CR is under way";
+  line.process(at_us(7600));
+  EXPECT_EQ(line.next_text_end(), at_us(10'900)) << "three characters without a CR";
+  line.send(port_a, "* 10\r", at_us(20'000));
+  line.process(at_us(10'900));
+  EXPECT_EQ(line.next_text_end(), at_us(25'500));
+  line.process(at_us(25'500));
+  EXPECT_EQ(line.next_text_end(), kNever);
+}
+
+TEST_F(VirtualSerialLineTest, SilenceEndsATextWithoutACarriageReturn) {
+  line.send(port_a, "# 1", at_us(0));
+  line.process(at_us(3300));
+  EXPECT_EQ(line.next_text_end(), at_us(5500)) << "two characters of silence";
+  line.process(at_us(5500));
+  EXPECT_EQ(line.next_text_end(), kNever);
+}
+
 // 'U' is 0x55 and on the line, from the start bit on, 0 1010 1010 11; one bit later every bit
 // falls on its opposite, so the line is low all the way until the first one stops.
 TEST_F(VirtualSerialLineTest, TwoTalkersSpoilEachOther) {

@@ -101,6 +101,11 @@ class VirtualSerialLine {
   /// after others. A scheduler that wakes its host whenever this grows never wakes it for each character.
   std::uint64_t host_wakeups() const { return host_wakeups_; }
 
+  /// When somebody is to be woken who serves whole texts only: the earliest end of a text under way or
+  /// waiting, up to its CR, in either direction, or of the silence after one without; kNever when there is
+  /// none. Of several texts that wait for each other only the first counts.
+  HostTime next_text_end() const;
+
   /// Figures up to the last call of process().
   const SerialLineStatistics& statistics() const { return statistics_; }
 
