@@ -55,7 +55,7 @@ void CyclicAxis::load(HostTime now) {
 
 // What has been sent for instants after the begin was rest, and cannot be taken back.
 void CyclicAxis::arm(HostTime begin, HostTime now) {
-  if (phase_ != Phase::Loaded) return;
+  if (phase() != Phase::Loaded) return;
   if (begin < setpoints_.newest()) {
     return fail(fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s "
                             "before: the host has stalled",
@@ -81,7 +81,7 @@ GoalTime CyclicAxis::stream_lead() const {
 }
 
 HostTime CyclicAxis::committed() const {
-  return phase_ == Phase::Moving && stream_origin_ ? setpoints_.newest() : kNever;
+  return phase() == Phase::Moving && stream_origin_ ? setpoints_.newest() : kNever;
 }
 
 std::optional<Refusal> CyclicAxis::plan_follow(const trajectory::Path& path) {
@@ -105,19 +105,18 @@ GoalTime CyclicAxis::playback(HostTime when) const {
 }
 
 bool CyclicAxis::wants_targets() const {
-  const bool leaves = phase_ == Phase::Disabling && configured_;
-  return phase_ == Phase::Enabling || must_be_enabled() ||
-         (leaves && telemetry_.statusword.state() == cia402::State::OperationEnabled);
+  const bool obeys = telemetry_.statusword.state() == cia402::State::OperationEnabled;
+  return enabling() || enabled() || (disabling() && obeys);
 }
 
 /// One target position for each SYNC, right behind the SYNC before it.
 void CyclicAxis::send_target() {
-  if (!wants_targets() || master_.pending_control() > kJammed) return;
-  const auto target = setpoints_.next(master_.next_sync_due());
+  if (!wants_targets() || master().pending_control() > kJammed) return;
+  const auto target = setpoints_.next(master().next_sync_due());
   if (!target) return;
   std::uint8_t data[4];
   canopen::put_le(data, *target);
-  const bool taken = node_.send_rpdo(cyclic_pdo::kTargetRpdo, data, sizeof(data));
+  const bool taken = node().send_rpdo(cyclic_pdo::kTargetRpdo, data, sizeof(data));
   ++(taken ? sent_ : refused_);
 }
 
@@ -137,7 +136,7 @@ void CyclicAxis::poll_moving(HostTime now) {
 }
 
 void CyclicAxis::stop(HostTime now) {
-  switch (phase_) {
+  switch (phase()) {
     case Phase::Loading:
     case Phase::Loaded:
       return enter(Phase::Ready, now);

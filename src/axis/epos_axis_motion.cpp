@@ -84,7 +84,7 @@ void EposAxis::load(HostTime now) {
 void EposAxis::start_loading(HostTime now) {
   ++load_attempts_;
   feed_.rewind();
-  node_.clear_records();
+  node().clear_records();
   using cia402::kBufferClearAndClose;
   using cia402::kBufferOpen;
   read_rest({SdoSequence::write(sdo_write<std::uint8_t>(object::kBufferClear, kBufferClearAndClose)),
@@ -103,7 +103,7 @@ void EposAxis::poll_clearing(HostTime now) {
             expected, rest_counts_),
         now);
   }
-  records_due_ = node_.rpdos_confirmed(epos_pdo::kRecordRpdo);
+  records_due_ = node().rpdos_confirmed(epos_pdo::kRecordRpdo);
   enter(Phase::Filling, now);
   feed(now);
 }
@@ -111,15 +111,15 @@ void EposAxis::poll_clearing(HostTime now) {
 void EposAxis::poll_filling(HostTime now) {
   if (expired(now, kFillTimeout))
     return fail("its records do not get onto the bus: is the bus overloaded or down?", now);
-  if (node_.rpdos_confirmed(epos_pdo::kRecordRpdo) < records_due_) return;
+  if (node().rpdos_confirmed(epos_pdo::kRecordRpdo) < records_due_) return;
   enter(Phase::Verifying, now);
-  sequence_.start({SdoSequence::read(object::kUsedRecords,
-                                     [this](const SdoResult& r) -> std::optional<std::string> {
-                                       if (!r.ok) return r.text();
-                                       held_records_ = r.as_u16();
-                                       return std::nullopt;
-                                     })},
-                  now);
+  sequence().start({SdoSequence::read(object::kUsedRecords,
+                                      [this](const SdoResult& r) -> std::optional<std::string> {
+                                        if (!r.ok) return r.text();
+                                        held_records_ = r.as_u16();
+                                        return std::nullopt;
+                                      })},
+                   now);
 }
 
 // A PDO is not acknowledged by its receiver, so the number of records is compared before anything moves.
@@ -140,7 +140,7 @@ void EposAxis::poll_verifying(HostTime now) {
 void EposAxis::feed(HostTime now) {
   while (const auto record = feed_.next(clock_.least_elapsed(now), clock_.elapsed(now))) {
     const auto bytes = cia402::pack({record->position, record->velocity, record->time});
-    if (!node_.send_record(epos_pdo::kRecordRpdo, bytes.data(), static_cast<std::uint8_t>(bytes.size())))
+    if (!node().send_record(epos_pdo::kRecordRpdo, bytes.data(), static_cast<std::uint8_t>(bytes.size())))
       return;
     feed_.mark_sent();
     ++records_due_;
@@ -152,19 +152,19 @@ void EposAxis::feed(HostTime now) {
 // -------------------------------------------------------------------------------------------------------
 
 void EposAxis::arm(HostTime, HostTime now) {
-  if (phase_ != Phase::Loaded) return;
+  if (phase() != Phase::Loaded) return;
   enter(Phase::Armed, now);
   reports_taken_ = telemetry_.buffer_reports;
   fill_mismatches_ = 0;
-  controlword_.send(cw::kStartInterpolation, now);
+  controlword().send(cw::kStartInterpolation, now);
 }
 
 HostTime EposAxis::path_begin() const { return clock_.running() ? clock_.host_time(wait_.count()) : kNever; }
 
 /// The drive starts at its first sample after SYNC.
 void EposAxis::start_clock() {
-  if (clock_.running() || !controlword_.applied()) return;
-  clock_.start(master_.last_sync_time() + host_duration(kHalfSample), facts_.takes_time_stamps);
+  if (clock_.running() || !controlword().applied()) return;
+  clock_.start(master().last_sync_time() + host_duration(kHalfSample), facts_.takes_time_stamps);
   if (stream_origin_) timeline_.begin(GoalTime{seconds(clock_.start_time() - *stream_origin_)});
 }
 
@@ -188,7 +188,7 @@ void EposAxis::poll_armed(HostTime now) {
 
 void EposAxis::poll_moving(HostTime now) {
   take_buffer_report(now);
-  if (phase_ != Phase::Moving) return;
+  if (phase() != Phase::Moving) return;
   feed(now);
   watch_motion(now);
 }
@@ -218,13 +218,13 @@ void EposAxis::end_of_motion(HostTime now) {
   }
   rest_counts_ = feed_.final_position();
   enter(Phase::Ending, now);
-  controlword_.send(cw::kEnableOperation, now);
+  controlword().send(cw::kEnableOperation, now);
 }
 
 // The next start needs a rising edge of bit 4, so the drive must have seen it fall.
 void EposAxis::poll_ending(HostTime now) {
-  if (!controlword_.applied()) {
-    if (controlword_.overdue(now)) controlword_.send(cw::kEnableOperation, now);
+  if (!controlword().applied()) {
+    if (controlword().overdue(now)) controlword().send(cw::kEnableOperation, now);
     return;
   }
   finished_ = true;
@@ -240,24 +240,24 @@ void EposAxis::take_buffer_report(HostTime now) {
   reports_taken_ = telemetry_.buffer_reports;
   if (telemetry_.free_records > facts_.capacity) return;
   const bool sent_meanwhile =
-      node_.rpdos_confirmed(epos_pdo::kRecordRpdo) < records_due_ ||
-      node_.last_rpdo_time(epos_pdo::kRecordRpdo) + kLatchTime > telemetry_.buffer_time;
+      node().rpdos_confirmed(epos_pdo::kRecordRpdo) < records_due_ ||
+      node().last_rpdo_time(epos_pdo::kRecordRpdo) + kLatchTime > telemetry_.buffer_time;
   const bool started = clock_.least_elapsed(telemetry_.buffer_time) > 0.0;
   if (started && !sent_meanwhile) compare_fill(used_records(), telemetry_.buffer_time, now);
 }
 
 void EposAxis::poll_fill_by_sdo(HostTime now) {
-  if (sequence_.running() || now - fill_asked_ < kFillReadInterval) return;
+  if (sequence().running() || now - fill_asked_ < kFillReadInterval) return;
   fill_asked_ = now;
-  sequence_.start({SdoSequence::read(object::kUsedRecords,
-                                     [this](const SdoResult& r) -> std::optional<std::string> {
-                                       if (!r.ok) return std::nullopt;
-                                       telemetry_.free_records =
-                                           facts_.capacity -
-                                           std::min<std::uint32_t>(r.as_u16(), facts_.capacity);
-                                       return std::nullopt;
-                                     })},
-                  now);
+  sequence().start({SdoSequence::read(object::kUsedRecords,
+                                      [this](const SdoResult& r) -> std::optional<std::string> {
+                                        if (!r.ok) return std::nullopt;
+                                        telemetry_.free_records =
+                                            facts_.capacity -
+                                            std::min<std::uint32_t>(r.as_u16(), facts_.capacity);
+                                        return std::nullopt;
+                                      })},
+                   now);
 }
 
 // What is in the FIFO is what was sent and not yet played. How far the drive has played is known within
@@ -310,12 +310,12 @@ void EposAxis::learn_clock(std::size_t used, HostTime when) {
 // ------------------------------------------------------------------------------------------------------
 
 void EposAxis::stop(HostTime now) {
-  node_.clear_records();
-  switch (phase_) {
+  node().clear_records();
+  switch (phase()) {
     case Phase::Armed:
     case Phase::Moving:
       enter(Phase::Braking, now);
-      return controlword_.send(cw::kStartInterpolation | cw::kHaltBit, now);
+      return controlword().send(cw::kStartInterpolation | cw::kHaltBit, now);
     case Phase::Ending:
       return;
     case Phase::Clearing:
@@ -331,13 +331,13 @@ void EposAxis::stop(HostTime now) {
 // With halt set, "target reached" means standstill. It counts when the drive has sent it after it took the
 // halt.
 void EposAxis::poll_braking(HostTime now) {
-  const bool fresh = controlword_.applied() && telemetry_.status_time > master_.last_sync_time() &&
-                     telemetry_.motion_time > node_.last_rpdo_time(epos_pdo::kControlwordRpdo) + kLatchTime;
+  const bool fresh = controlword().applied() && telemetry_.status_time > master().last_sync_time() &&
+                     telemetry_.motion_time > node().last_rpdo_time(epos_pdo::kControlwordRpdo) + kLatchTime;
   if (fresh && telemetry_.statusword.target_reached()) {
-    controlword_.send(cw::kHalt, now);
+    controlword().send(cw::kHalt, now);
     return start_emptying(now);
   }
-  if (!controlword_.applied() && controlword_.overdue(now)) controlword_.send(controlword_.word(), now);
+  if (!controlword().applied() && controlword().overdue(now)) controlword().send(controlword().word(), now);
   const double longest = parameters_.limits.max_velocity / parameters_.limits.max_acceleration;
   if (expired(now, host_duration(2.0 * longest) + patience(kOvertime, parameters_))) {
     fail_in_motion("the drive was told to halt but does not come to rest", now);
@@ -351,8 +351,8 @@ void EposAxis::start_emptying(HostTime now) {
 
 // Halt is taken back last, when neither bit 4 nor a record could make the drive go on.
 void EposAxis::poll_emptying(HostTime now) {
-  if (!sequence_done(now) || !controlword_.applied()) return;
-  if (controlword_.word() != cw::kEnableOperation) return controlword_.send(cw::kEnableOperation, now);
+  if (!sequence_done(now) || !controlword().applied()) return;
+  if (controlword().word() != cw::kEnableOperation) return controlword().send(cw::kEnableOperation, now);
   enter(Phase::Ready, now);
 }
 
@@ -360,8 +360,8 @@ void EposAxis::poll_emptying(HostTime now) {
 /// reset.
 void EposAxis::fail_in_motion(const std::string& reason, HostTime now) {
   fail(reason, now);
-  controlword_.send(cw::kStartInterpolation | cw::kHaltBit, now);
-  master_.request_sync(now);
+  controlword().send(cw::kStartInterpolation | cw::kHaltBit, now);
+  master().request_sync(now);
 }
 
 }  // namespace interpolated_motion::axis

@@ -44,7 +44,7 @@ GoalTime EposAxis::stream_lead() const {
 }
 
 HostTime EposAxis::committed() const {
-  if (phase_ != Phase::Moving || !stream_origin_ || feed_.all_sent()) return kNever;
+  if (phase() != Phase::Moving || !stream_origin_ || feed_.all_sent()) return kNever;
   const GoalTime knot = timeline_.at(1e-3 * static_cast<double>(feed_.sent_knot().sample));
   return *stream_origin_ + host_duration(knot.count());
 }

@@ -296,8 +296,8 @@ MotorLimits motor_limits(const EposAxisParameters& parameters) {
           std::abs(transmission.motor_rpm(parameters.limits.max_acceleration))};
 }
 
-std::vector<SdoSequence::Step> bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
-                                              SdoSequence& sequence, EposFacts& facts) {
+std::vector<SdoSequence::Step> epos_bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
+                                                   SdoSequence& sequence, EposFacts& facts) {
   Steps steps = verification(facts);
   append(steps, supervision(parameters));
   append(steps, try_velocity_notation({parameters, sequence, facts}, kFinestVelocityNotation));

@@ -4,14 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "interpolated_motion_driver/axis/axis.h"
-#include "interpolated_motion_driver/axis/controlword_link.h"
+#include "interpolated_motion_driver/axis/cia402_axis.h"
 #include "interpolated_motion_driver/axis/cyclic_parameters.h"
 #include "interpolated_motion_driver/axis/cyclic_telemetry.h"
-#include "interpolated_motion_driver/axis/sdo_sequence.h"
 #include "interpolated_motion_driver/axis/setpoint_stream.h"
 #include "interpolated_motion_driver/encoding/setpoint_certificate.h"
-#include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
 
 namespace interpolated_motion::axis {
@@ -24,25 +21,14 @@ namespace interpolated_motion::axis {
 /// of the path. stop() leaves the path for one to rest within the joint's limits. When target positions fail
 /// to come the drive goes on along its polynomial for a few periods and then faults: a host that stalls or
 /// dies stops the drive so.
-class CyclicAxis : public Axis {
+class CyclicAxis : public Cia402Axis {
  public:
   /// `master`, which must be isochronous with the same period, and `node` must outlive the axis. Throws
   /// std::invalid_argument, naming joint, parameter, value and range.
   CyclicAxis(CyclicAxisParameters parameters, canopen::Master& master, canopen::NodeLink& node);
 
-  const std::string& joint() const override { return parameters_.joint; }
-  const std::string& bus() const override { return master_.bus_name(); }
   std::string description() const override;
-  AxisState state() const override;
-  const std::string& fault_text() const override { return fault_text_; }
-
   void poll(HostTime now) override;
-  HostTime next_deadline() const override;
-
-  void bring_up(HostTime now) override;
-  void enable(HostTime now) override;
-  void disable(HostTime now) override;
-  void reset_fault(HostTime now) override;
 
   double rest_position() const override;
   GoalTime start_lead() const override;
@@ -72,77 +58,52 @@ class CyclicAxis : public Axis {
   AxisReport report() const override;
 
  private:
+  /// Of the enabled drive.
   enum class Phase {
-    Offline,
-    Probing,  ///< waits for the first answer
-    Configuring,
-    StartingNode,  ///< waits for the first statusword
-    Disabled,
-    SelectingMode,
-    Enabling,
+    Off,        ///< it is not enabled
+    Following,  ///< waits until the drive follows its target positions
     Ready,
     Loading,
     Loaded,
     Moving,
     Braking,
-    Disabling,
-    Resetting,
-    Fault,
   };
 
-  void run_phase(HostTime now);
-  void poll_probing(HostTime now);
-  void poll_configuring(HostTime now);
-  void poll_starting_node(HostTime now);
-  void poll_selecting_mode(HostTime now);
-  void poll_enabling(HostTime now);
+  std::vector<SdoSequence::Step> bring_up_steps() override;
+  bool has_reported(HostTime since) const override { return telemetry_.status_time > since; }
+  void on_started() override;
+  void on_mode_selected() override;
+  void on_enabling() override;
+  void on_enabled(HostTime now) override;
+  void poll_enabled(HostTime now) override;
+  AxisState enabled_state() const override;
+  void give_up(HostTime now) override;
+  CyclicTelemetry& drive() override { return telemetry_; }
+  const CyclicTelemetry& drive() const override { return telemetry_; }
+  std::string text_of(const canopen::Emcy& emcy) const override;
+  std::string lost_by_restart() const override { return "its settings"; }
+
+  void poll_following(HostTime now);
   void poll_moving(HostTime now);
   void poll_braking(HostTime now);
-  void poll_disabling(HostTime now);
-  void poll_resetting(HostTime now);
 
   void on_tpdo(int number, const canopen::Frame& frame, HostTime time);
-  void collect_emergencies();
-  void watch_heartbeat(HostTime now);
-  void watch_power_stage(HostTime now);
-
   bool wants_targets() const;
   void send_target();
   void come_to_rest(HostTime now);
 
-  void probe(HostTime now);
-  SdoSequence::Step read_mode();
-  bool sequence_done(HostTime now);
-  bool walk_to(cia402::State target, HostTime now);
-  bool must_be_enabled() const;
-  bool is_motion_phase() const { return phase_ == Phase::Moving || phase_ == Phase::Braking; }
+  Phase phase() const { return enabled() ? phase_ : Phase::Off; }
   void enter(Phase phase, HostTime now);
-  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
-  std::string who() const;
-  std::string drive_fault() const;
-  void fail(const std::string& reason, HostTime now);
-  void go_offline(const std::string& reason, HostTime now);
   encoding::SetpointEncoding encoding() const;
-  double sync_delay() const { return master_.sync_timing().delay(); }
+  double sync_delay() const { return master().sync_timing().delay(); }
 
   CyclicAxisParameters parameters_;
-  canopen::Master& master_;
-  canopen::NodeLink& node_;
-  SdoSequence sequence_;
-  ControlwordLink controlword_;
   SetpointStream setpoints_;
   cia402::Identity identity_;
   CyclicTelemetry telemetry_;
   AxisFeedback feedback_;
 
-  Phase phase_ = Phase::Offline;
-  HostTime phase_since_{};
-  HostTime polled_{};
-  HostTime bring_up_since_{};
-  bool configured_ = false;
-  std::string fault_text_;
-  std::uint16_t error_code_ = 0;
-  std::string error_text_;
+  Phase phase_ = Phase::Off;
 
   std::int32_t rest_counts_ = 0;
   trajectory::Path planned_;

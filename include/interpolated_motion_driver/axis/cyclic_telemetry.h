@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "interpolated_motion_driver/axis/cia402_report.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/protocol/canopen/pdo.h"
-#include "interpolated_motion_driver/protocol/cia402/statusword.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
@@ -35,11 +35,8 @@ canopen::PdoConfiguration demand_tpdo(HostDuration period);
 }  // namespace cyclic_pdo
 
 /// What the drive has told by its TPDOs, in its own units.
-struct CyclicTelemetry {
-  cia402::Statusword statusword;
-  std::int8_t mode = 0;
+struct CyclicTelemetry : Cia402Report {
   std::int32_t position = 0;  ///< counts
-  HostTime status_time{};     ///< when TPDO1 arrived; the epoch: none yet
   HostTime position_time{};   ///< latched by the drive: that of the SYNC
 
   std::int32_t velocity = 0;         ///< velocity units

@@ -4,17 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "interpolated_motion_driver/axis/axis.h"
-#include "interpolated_motion_driver/axis/controlword_link.h"
+#include "interpolated_motion_driver/axis/cia402_axis.h"
 #include "interpolated_motion_driver/axis/epos_bring_up.h"
 #include "interpolated_motion_driver/axis/epos_parameters.h"
 #include "interpolated_motion_driver/axis/epos_telemetry.h"
 #include "interpolated_motion_driver/axis/goal_timeline.h"
 #include "interpolated_motion_driver/axis/playback_clock.h"
 #include "interpolated_motion_driver/axis/record_feed.h"
-#include "interpolated_motion_driver/axis/sdo_sequence.h"
-#include "interpolated_motion_driver/protocol/canopen/master.h"
-#include "interpolated_motion_driver/protocol/cia402/statusword.h"
 
 namespace interpolated_motion::axis {
 
@@ -25,25 +21,13 @@ namespace interpolated_motion::axis {
 /// follow by time, on the drive's own clock as PlaybackClock knows it; the record with time 0 ends the mode;
 /// controlword 0x0F follows. stop() sets halt, waits for standstill, leaves the mode while halt is still set
 /// (clearing halt first could resume the motion), empties the FIFO.
-class EposAxis : public Axis {
+class EposAxis : public Cia402Axis {
  public:
   /// `master` and `node` must outlive the axis. Throws std::invalid_argument, naming joint and parameter,
   /// when a limit is not finite.
   EposAxis(EposAxisParameters parameters, canopen::Master& master, canopen::NodeLink& node);
 
-  const std::string& joint() const override { return parameters_.joint; }
-  const std::string& bus() const override { return master_.bus_name(); }
   std::string description() const override;
-  AxisState state() const override;
-  const std::string& fault_text() const override { return fault_text_; }
-
-  void poll(HostTime now) override;
-  HostTime next_deadline() const override;
-
-  void bring_up(HostTime now) override;
-  void enable(HostTime now) override;
-  void disable(HostTime now) override;
-  void reset_fault(HostTime now) override;
 
   double rest_position() const override;
   GoalTime start_lead() const override { return GoalTime{0.0}; }
@@ -73,14 +57,9 @@ class EposAxis : public Axis {
   const EposFacts& facts() const { return facts_; }
 
  private:
+  /// Of the enabled drive.
   enum class Phase {
-    Offline,
-    Probing,  ///< waits for the first answer
-    Configuring,
-    StartingNode,  ///< waits for the first statusword
-    Disabled,
-    SelectingMode,
-    Enabling,
+    Off,  ///< it is not enabled
     ReadingRest,
     Ready,
     Clearing,
@@ -92,9 +71,6 @@ class EposAxis : public Axis {
     Ending,  ///< played; waits until bit 4 of the controlword is off
     Braking,
     Emptying,
-    Disabling,
-    Resetting,
-    Fault,
   };
 
   /// Records that can be in the FIFO by what has been sent and how far the drive can have played.
@@ -104,13 +80,18 @@ class EposAxis : public Axis {
     bool contains(std::size_t used) const { return used >= least && used <= most; }
   };
 
-  void forgive_stall(HostTime now);
-  void run_phase(HostTime now);
-  void poll_probing(HostTime now);
-  void poll_configuring(HostTime now);
-  void poll_starting_node(HostTime now);
-  void poll_selecting_mode(HostTime now);
-  void poll_enabling(HostTime now);
+  std::vector<SdoSequence::Step> bring_up_steps() override;
+  bool has_reported(HostTime since) const override;
+  void on_enabled(HostTime now) override;
+  void poll_enabled(HostTime now) override;
+  AxisState enabled_state() const override;
+  void give_up(HostTime now) override;
+  EposTelemetry& drive() override { return telemetry_; }
+  const EposTelemetry& drive() const override { return telemetry_; }
+  std::string text_of(const canopen::Emcy& emcy) const override;
+  std::string fault_detail() const override;
+  std::string lost_by_restart() const override { return "its FIFO and settings"; }
+
   void poll_reading_rest(HostTime now);
   void poll_clearing(HostTime now);
   void poll_filling(HostTime now);
@@ -120,30 +101,16 @@ class EposAxis : public Axis {
   void poll_ending(HostTime now);
   void poll_braking(HostTime now);
   void poll_emptying(HostTime now);
-  void poll_disabling(HostTime now);
-  void poll_resetting(HostTime now);
 
   void on_tpdo(int number, const canopen::Frame& frame, HostTime time);
   void note_buffer_errors(cia402::BufferStatus before);
-  void collect_emergencies();
-  void watch_heartbeat(HostTime now);
-  void watch_power_stage(HostTime now);
   void watch_motion(HostTime now);
 
+  Phase phase() const { return enabled() ? phase_ : Phase::Off; }
   void enter(Phase phase, HostTime now);
-  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
-  bool is_motion_phase() const { return phase_ == Phase::Armed || phase_ == Phase::Moving; }
-  bool must_be_enabled() const;
-  std::string who() const;
+  bool is_motion_phase() const { return phase() == Phase::Armed || phase() == Phase::Moving; }
   std::string clock_text() const;
-  void fail(const std::string& reason, HostTime now);
   void fail_in_motion(const std::string& reason, HostTime now);
-  void go_offline(const std::string& reason, HostTime now);
-  std::string drive_fault() const;
-
-  bool walk_to(cia402::State target, HostTime now);
-  bool sequence_done(HostTime now);
-  SdoSequence::Step read_mode();
   void read_rest(std::vector<SdoSequence::Step> before, Phase phase, HostTime now);
 
   encoding::PvtEncoding encoding() const;
@@ -164,22 +131,11 @@ class EposAxis : public Axis {
   double counts_per_second(std::int32_t velocity) const;
 
   EposAxisParameters parameters_;
-  canopen::Master& master_;
-  canopen::NodeLink& node_;
-  SdoSequence sequence_;
-  ControlwordLink controlword_;
   EposFacts facts_;
   EposTelemetry telemetry_;
   AxisFeedback feedback_;
 
-  Phase phase_ = Phase::Offline;
-  HostTime phase_since_{};
-  HostTime polled_{};
-  HostTime bring_up_since_{};
-  bool configured_ = false;
-  std::string fault_text_;
-  std::uint16_t error_code_ = 0;
-  std::string error_text_;
+  Phase phase_ = Phase::Off;
 
   std::int32_t rest_counts_ = 0;
   /// What plan() and plan_stream() have made, until load().

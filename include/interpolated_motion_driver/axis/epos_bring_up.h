@@ -35,7 +35,7 @@ MotorLimits motor_limits(const EposAxisParameters& parameters);
 /// "EPOS2 Interpolated Position Mode" with everything the driver relies on checked before. What is found goes
 /// to `facts`, which must outlive the sequence. Every check ends with a sentence that names the object, what
 /// was found and what is needed.
-std::vector<SdoSequence::Step> bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
-                                              SdoSequence& sequence, EposFacts& facts);
+std::vector<SdoSequence::Step> epos_bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
+                                                   SdoSequence& sequence, EposFacts& facts);
 
 }  // namespace interpolated_motion::axis

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
+#include "interpolated_motion_driver/axis/cia402_report.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/protocol/canopen/pdo.h"
 #include "interpolated_motion_driver/protocol/cia402/buffer_status.h"
-#include "interpolated_motion_driver/protocol/cia402/statusword.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
@@ -39,11 +39,8 @@ canopen::PdoConfiguration demand_tpdo();
 }  // namespace epos_pdo
 
 /// What the drive has told by its TPDOs, in its own units.
-struct EposTelemetry {
-  cia402::Statusword statusword;
+struct EposTelemetry : Cia402Report {
   cia402::BufferStatus buffer_status;
-  std::int8_t mode = 0;
-  HostTime status_time{};  ///< of the statusword; the epoch: none yet
 
   std::int32_t position = 0;  ///< counts
   std::int32_t velocity = 0;  ///< velocity units
