@@ -48,6 +48,7 @@ void SerialLink::send_outgoing(HostTime now) {
 
 void SerialLink::fill_traffic(motion::BusSnapshot& out) const {
   out.load = master_.load();
+  out.reply_delay = {seconds(master_.reply_delay()), seconds(master_.parameters().turnaround)};
   out.frames_sent = requests_;
   out.frames_received = replies_;
 }

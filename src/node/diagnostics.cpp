@@ -28,6 +28,28 @@ void summarize_drive(const motion::JointSnapshot& joint, DiagnosticStatus& statu
   }
 }
 
+/// Late enough to matter: half as long again, and not what a scheduler does.
+bool is_late(const motion::ReplyDelay& delay) { return delay.mean > 1.5 * delay.planned + 0.001; }
+
+void summarize_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {
+  if (!bus.usable) {
+    status.summary(kError, bus.state);
+  } else if (bus.lost_frames > 0) {
+    status.summary(kWarn, fmt::format("{} frames were lost", bus.lost_frames));
+  } else if (bus.reply_delay && is_late(*bus.reply_delay)) {
+    status.summary(kWarn,
+                   fmt::format("replies take {:.1f} ms where {:.1f} ms are planned, so goals may be "
+                               "accepted that the line cannot carry. Set buses/{}/turnaround to {:.3f}",
+                               1e3 * bus.reply_delay->mean, 1e3 * bus.reply_delay->planned, bus.name,
+                               bus.reply_delay->mean));
+  } else if (bus.load > max_load) {
+    status.summary(kWarn,
+                   fmt::format("load {} is above the configured {}", percent(bus.load), percent(max_load)));
+  } else {
+    status.summary(kOk, fmt::format("load {}", percent(bus.load)));
+  }
+}
+
 }  // namespace
 
 void diagnose_group(const motion::Snapshot& snapshot, DiagnosticStatus& status) {
@@ -53,16 +75,7 @@ void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status
 }
 
 void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {
-  if (!bus.usable) {
-    status.summary(kError, bus.state);
-  } else if (bus.lost_frames > 0) {
-    status.summary(kWarn, fmt::format("{} frames were lost", bus.lost_frames));
-  } else if (bus.load > max_load) {
-    status.summary(kWarn,
-                   fmt::format("load {} is above the configured {}", percent(bus.load), percent(max_load)));
-  } else {
-    status.summary(kOk, fmt::format("load {}", percent(bus.load)));
-  }
+  summarize_bus(bus, max_load, status);
   status.add("state", bus.state);
   status.add("load", percent(bus.load));
   status.add("frames sent", bus.frames_sent);
@@ -70,6 +83,10 @@ void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticSta
   status.add("unexpected frames", bus.unexpected);
   status.add("error frames", bus.error_frames);
   status.add("lost frames", bus.lost_frames);
+  if (bus.reply_delay) {
+    status.add("reply delay", fmt::format("{:.1f} ms", 1e3 * bus.reply_delay->mean));
+    return;
+  }
   status.add("SYNC delay", fmt::format("{:.3f} ms", bus.sync_delay * 1e3));
   status.add("SYNC jitter", fmt::format("{:.3f} ms", bus.sync_jitter * 1e3));
   status.add("SYNCs skipped", bus.syncs_skipped);

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Planned, SilverlodeGoals,
 
 // Drives or adapters that answer later than the plan has it leave no gap between segments. As long as these
 // come in time that is no fault, and the drives are looked at all the same.
-TEST(SilverlodeGoalOnALateLine, IsFollowed) {
+TEST(SilverlodeGoalOnALateLine, IsFollowedAndTheDelayIsReported) {
   std::string drives;
   for (int i = 1; i <= 6; ++i) drives += fmt::format("joint{}: {{emulation: {{turnaround: 0.010}}}}, ", i);
   Scenario scenario(six_axis_silverlode(
@@ -93,6 +93,11 @@ TEST(SilverlodeGoalOnALateLine, IsFollowed) {
   const auto result = scenario.result_of(accepted.value().id);
   EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
   expect_followed(scenario, 2.0, 1.0);
+  for (const auto& bus : scenario.snapshot().buses) {
+    ASSERT_TRUE(bus.reply_delay) << bus.name;
+    EXPECT_NEAR(bus.reply_delay->mean, 0.010, 0.0005) << bus.name;
+    EXPECT_DOUBLE_EQ(bus.reply_delay->planned, 0.002) << bus.name;
+  }
 }
 
 // A stop ends anywhere between two counts; the next goal keeps its bound all the same.

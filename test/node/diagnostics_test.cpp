@@ -69,6 +69,20 @@ TEST(BusDiagnostics, WarnsAboveTheConfiguredLoad) {
   EXPECT_EQ(status.level, Level::WARN);
 }
 
+TEST(BusDiagnostics, RepliesLaterThanPlannedAreAWarningThatSaysWhatToSet) {
+  motion::BusSnapshot bus;
+  bus.name = "line0";
+  bus.reply_delay = motion::ReplyDelay{0.0025, 0.002};
+  DiagnosticStatus status;
+  diagnose_bus(bus, 0.6, status);
+  EXPECT_EQ(status.level, Level::OK);
+  bus.reply_delay = motion::ReplyDelay{0.016, 0.002};
+  diagnose_bus(bus, 0.6, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  for (const char* part : {"16.0 ms", "2.0 ms", "buses/line0/turnaround", "0.016"})
+    EXPECT_NE(status.message.find(part), std::string::npos) << status.message;
+}
+
 TEST(GroupDiagnostics, AFaultIsAnErrorWithItsReason) {
   motion::Snapshot snapshot;
   snapshot.state = motion::GroupState::Fault;

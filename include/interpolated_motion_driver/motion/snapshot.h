@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,12 @@ struct JointSnapshot {
   double clock_error_ppm = 0.0;  ///< estimated error of the drive's clock against the host's
 };
 
+/// From a request on a serial line to its reply, s.
+struct ReplyDelay {
+  double mean = 0.0;     ///< of the latest replies
+  double planned = 0.0;  ///< what the line is planned with, `turnaround`
+};
+
 struct BusSnapshot {
   std::string name;
   double load = 0.0;  ///< 0..1, over the last second
@@ -56,6 +63,7 @@ struct BusSnapshot {
   double sync_delay = 0.0;          ///< s, from the instant periodic SYNC is due to its end on the bus, mean
   double sync_jitter = 0.0;         ///< s, largest deviation from that in the last seconds
   std::uint64_t syncs_skipped = 0;  ///< not sent, since the host was too late
+  std::optional<ReplyDelay> reply_delay;  ///< of a serial line
 };
 
 enum class GroupState {

@@ -137,6 +137,7 @@ void LineMaster::on_reply(const Reply& reply) {
   DeviceLink& device = *exchange_->device;
   device.count(outcome);
   device.outcomes_.push(outcome);
+  reply_delay_.add(std::max(outcome.reply_begin - exchange_->request_end, HostDuration(0)));
   end_exchange(std::max(reply.end, exchange_->request_end), parameters_.pause);
 }
 

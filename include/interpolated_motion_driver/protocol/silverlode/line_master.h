@@ -12,6 +12,7 @@
 #include "interpolated_motion_driver/protocol/silverlode/device_link.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_load.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_parameters.h"
+#include "interpolated_motion_driver/protocol/silverlode/reply_delay.h"
 #include "interpolated_motion_driver/protocol/silverlode/reply_parser.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -115,6 +116,8 @@ class LineMaster {
   double load(HostTime now) const;
   /// As of the latest time this master was given.
   double load() const { return load(now_); }
+  /// How late replies come, 0 before the first; `turnaround` is what is planned with.
+  HostDuration reply_delay() const { return reply_delay_.mean(); }
 
   const UnexpectedLines& unexpected(UnexpectedLine cause) const;
   /// `line0: a reply of another address than the one asked came 3 times, last "* 12" after "@17 20"`; empty
@@ -190,6 +193,7 @@ class LineMaster {
   HostTime noise_end_{};
 
   LineLoad load_;
+  ReplyDelay reply_delay_;
   std::array<UnexpectedLines, kUnexpectedLineCauses> unexpected_{};
   std::uint64_t echoes_ = 0;
 };
