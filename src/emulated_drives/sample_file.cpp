@@ -7,6 +7,12 @@
 #include <fmt/format.h>
 
 namespace interpolated_motion::emulated_drives {
+namespace {
+
+/// Some seconds of a drive's samples: writing takes far longer than computing them.
+constexpr std::size_t kBuffer = std::size_t{1} << 20;
+
+}  // namespace
 
 SampleFile::SampleFile(const std::string& folder, const std::string& name) : path_(folder + "/" + name) {
   open();
@@ -14,7 +20,10 @@ SampleFile::SampleFile(const std::string& folder, const std::string& name) : pat
 
 void SampleFile::open() {
   file_.reset(std::fopen(path_.c_str(), "w"));
-  if (file_) return;
+  if (file_) {
+    std::setvbuf(file_.get(), nullptr, _IOFBF, kBuffer);
+    return;
+  }
   throw std::runtime_error(fmt::format("--samples: {} cannot be written: {}", path_, std::strerror(errno)));
 }
 

@@ -40,8 +40,8 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
 }
 
 axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& configuration,
-                                                     const DriveConfiguration& drive, double line_share,
-                                                     double start_lead) {
+                                                     const DriveConfiguration& drive,
+                                                     const BusConfiguration& bus, double start_lead) {
   axis::SilverlodeAxisParameters parameters;
   parameters.joint = drive.joint;
   parameters.transmission = drive.transmission;
@@ -51,8 +51,9 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
   parameters.stream_horizon = configuration.setpoints.horizon.count();
-  parameters.line_share = line_share;
+  parameters.line_share = bus.max_load;
   parameters.start_lead = start_lead;
+  parameters.status_period = host_duration(bus.serial.status_period);
   parameters.scale = drive.silverlode.scale;
   parameters.command_scale = drive.silverlode.command_scale;
   parameters.ims_arguments = drive.silverlode.ims_arguments;
@@ -248,9 +249,8 @@ void Assembly::add_silverlode(const Configuration& configuration, const DriveCon
   const std::size_t index = axes_.size();
   const BusConfiguration& bus = bus_configurations_.at(drive.bus);
   const double lead = start_lead(bus, configuration, link.master());
-  axes_.push_back(
-      std::make_unique<axis::SilverlodeAxis>(silverlode_parameters(configuration, drive, bus.max_load, lead),
-                                             link.master(), device, common_start(drive)));
+  axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
+      silverlode_parameters(configuration, drive, bus, lead), link.master(), device, common_start(drive)));
   audits_.emplace_back(drive.transmission, *axes_.back());
   if (virtual_lines_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_silverlode(drive, index);
 }

@@ -140,6 +140,7 @@ void parse_serial_line(ParameterReader& reader, BusConfiguration& bus) {
       reader.choice("start", bus.serial.start,
                     {{"addressed", LineStartKind::Addressed}, {"global", LineStartKind::Global}});
   bus.serial.start_lead = reader.number("start_lead", bus.serial.start_lead, 0.05, 10.0);
+  bus.serial.status_period = reader.number("status_period", bus.serial.status_period, 0.005, 0.25);
   bus.max_load = reader.number("max_load", 0.85, 0.01, 0.95);
 }
 

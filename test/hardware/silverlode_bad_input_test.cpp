@@ -260,6 +260,7 @@ const BadParameter kBadParameters[] = {
      {"drives/joint2/velocity_full_scale", "0", "1.."}},
     {"Baud", "{buses: {line0: {baud: 12345}}}", {"buses/line0/baud", "12345", "57600"}},
     {"Timeout", "{buses: {line0: {reply_timeout: 0.001}}}", {"buses/line0/reply_timeout", "turnaround"}},
+    {"StatusPeriod", "{buses: {line0: {status_period: 1}}}", {"buses/line0/status_period", "1", "0.25"}},
     {"Revision", "{drives: {joint2: {emulation: {revision: 70000}}}}", {"revision", "70000", "65535"}},
 };
 

@@ -57,6 +57,7 @@ struct SerialLineConfiguration {
   LineStartKind start = LineStartKind::Addressed;
   double start_lead =
       0.15;  ///< s, and kLeadOfDrive more for each drive: from the start command to the motion
+  double status_period = 0.05;  ///< s, between two looks at one drive in motion
 };
 
 /// A bus and its protocol. What only one protocol knows is without meaning for the other.
