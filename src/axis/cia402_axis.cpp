@@ -17,6 +17,8 @@ namespace {
 
 /// How often an axis wants to be polled while it works towards something.
 constexpr HostDuration kPollInterval = 5ms;
+/// The same in motion, where what the drive reports is an event of its own and its FIFO lasts far longer.
+constexpr HostDuration kMotionPollInterval = 10ms;
 /// Polls further apart than this mean that the host was away: stopped, or starved by other programs.
 constexpr HostDuration kHostStall = 100ms;
 
@@ -79,6 +81,8 @@ HostTime Cia402Axis::next_deadline() const {
     case AxisState::Loaded:
     case AxisState::Fault:
       return kNever;
+    case AxisState::Moving:
+      return polled_ + kMotionPollInterval;
     default:
       return polled_ + kPollInterval;
   }

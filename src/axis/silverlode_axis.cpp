@@ -20,6 +20,8 @@ namespace {
 
 /// How often an axis wants to be polled while it works towards something.
 constexpr HostDuration kPollInterval = 5ms;
+/// The same in motion: the ends of exchanges, which make room for the next, are events of their own.
+constexpr HostDuration kMotionPollInterval = 10ms;
 /// How often the drive is asked at rest.
 constexpr HostDuration kRestPeriod = 100ms;
 /// How often a drive in fault is asked that does not answer: each time takes the line from the others.
@@ -156,6 +158,8 @@ HostTime SilverlodeAxis::next_deadline() const {
     case Phase::Loaded:
     case Phase::Fault:
       return std::max(look, work);
+    case Phase::Moving:
+      return last_poll_ + kMotionPollInterval;
     default:
       return work;
   }
