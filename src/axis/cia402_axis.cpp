@@ -58,7 +58,7 @@ AxisState Cia402Axis::state() const {
 // ---- polling
 
 void Cia402Axis::poll(HostTime now) {
-  forgive_stall(now);
+  note_stall(now);
   collect_emergencies();
   watch_heartbeat(now);
   watch_power_stage(now);
@@ -66,11 +66,15 @@ void Cia402Axis::poll(HostTime now) {
   run_stage(now);
 }
 
-/// The time limit of a stage is for the drive: what the host was away for does not count.
-void Cia402Axis::forgive_stall(HostTime now) {
+void Cia402Axis::note_stall(HostTime now) {
   const HostDuration away = now - polled_;
-  if (away > kHostStall && polled_ >= since_) since_ += away;
+  if (away > kHostStall && polled_ >= since_) away_ += away;
   polled_ = now;
+}
+
+void Cia402Axis::begin_phase(HostTime now) {
+  since_ = now;
+  away_ = HostDuration::zero();
 }
 
 HostTime Cia402Axis::next_deadline() const {
@@ -297,7 +301,7 @@ std::string Cia402Axis::drive_fault() const {
 
 void Cia402Axis::enter(Stage stage, HostTime now) {
   stage_ = stage;
-  since_ = now;
+  begin_phase(now);
 }
 
 std::string Cia402Axis::who() const { return fmt::format("Joint {} ({})", settings_.joint, node_.name()); }

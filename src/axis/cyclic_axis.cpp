@@ -10,13 +10,10 @@
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/cyclic_objects.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
-#include "interpolated_motion_driver/protocol/cia402/modes.h"
 
 namespace interpolated_motion::axis {
 
 using namespace std::chrono_literals;
-namespace object = cia402::object;
-using canopen::SdoResult;
 
 namespace {
 

@@ -8,13 +8,10 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
-#include "interpolated_motion_driver/protocol/cia402/modes.h"
 
 namespace interpolated_motion::axis {
 
-using namespace std::chrono_literals;
 namespace object = cia402::object;
-using canopen::sdo_write;
 using canopen::SdoResult;
 
 namespace {

@@ -82,7 +82,7 @@ void SerialServer::plug_in() {
 void SerialServer::turn() {
   const HostTime now = transport::read_host_clock();
   if (now >= plug_in_at_) plug_in();
-  if (!waiting_) take_characters();
+  take_characters();
   wait_for_characters();
   run_drives(now);
   // A drive says nothing unless it was asked, so only the ends of texts on the line need a turn.
@@ -100,7 +100,7 @@ void SerialServer::wait_for_characters() {
 
 void SerialServer::take_characters() {
   HostTime time{};
-  while (terminal_) {
+  while (terminal_ && !waiting_) {
     const auto character = terminal_->receive();
     if (!character) break;
     incoming_ += character->value;

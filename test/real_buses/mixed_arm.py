@@ -9,7 +9,6 @@ import unittest
 import pytest
 import real_arm
 
-
 # Seconds. User-mode Linux takes 40e-6 for a system call on a machine that has nothing else to do.
 SLOWEST_SYSTEM_CALL = 80e-6
 

@@ -80,9 +80,11 @@ class Cia402Axis : public Axis {
   /// On the way to the power stage being off, from a drive whose PDOs are configured.
   bool disabling() const { return stage_ == Stage::Disabling && configured_; }
 
-  void begin_phase(HostTime now) { since_ = now; }
+  void begin_phase(HostTime now);
   HostTime since() const { return since_; }
-  bool expired(HostTime now, HostDuration limit) const { return now - since_ > limit; }
+  /// `limit` is over since the stage or phase began. It is for the drive: what the host was away for does not
+  /// count.
+  bool expired(HostTime now, HostDuration limit) const { return now - since_ - away_ > limit; }
   /// True when the steps are done; a failure is a fault.
   bool sequence_done(HostTime now);
   void fail(const std::string& reason, HostTime now);
@@ -94,7 +96,6 @@ class Cia402Axis : public Axis {
   canopen::NodeLink& node() const { return node_; }
   SdoSequence& sequence() { return sequence_; }
   ControlwordLink& controlword() { return controlword_; }
-  const ControlwordLink& controlword() const { return controlword_; }
 
  private:
   enum class Stage {
@@ -111,7 +112,7 @@ class Cia402Axis : public Axis {
     Fault,
   };
 
-  void forgive_stall(HostTime now);
+  void note_stall(HostTime now);
   void collect_emergencies();
   void watch_heartbeat(HostTime now);
   void watch_power_stage(HostTime now);
@@ -138,7 +139,8 @@ class Cia402Axis : public Axis {
   ControlwordLink controlword_;
 
   Stage stage_ = Stage::Offline;
-  HostTime since_{};  ///< begin of the stage, or of the phase of an enabled drive
+  HostTime since_{};     ///< begin of the stage, or of the phase of an enabled drive
+  HostDuration away_{};  ///< of the host, since then
   HostTime polled_{};
   HostTime bring_up_since_{};
   bool configured_ = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <optional>
 
 #include "interpolated_motion_driver/units/time.h"
 
@@ -10,18 +10,15 @@ namespace interpolated_motion::silverlode {
 /// replies, older ones weigh less.
 class ReplyDelay {
  public:
-  void add(HostDuration delay) {
-    mean_ = replies_ == 0 ? delay : mean_ + (delay - mean_) / kMemory;
-    ++replies_;
-  }
+  void add(HostDuration delay) { mean_ = mean_ ? *mean_ + (delay - *mean_) / kMemory : delay; }
 
-  HostDuration mean() const { return mean_; }
+  /// 0 before the first reply.
+  HostDuration mean() const { return mean_.value_or(HostDuration::zero()); }
 
  private:
   static constexpr int kMemory = 32;  ///< replies
 
-  HostDuration mean_{};
-  std::uint64_t replies_ = 0;
+  std::optional<HostDuration> mean_;
 };
 
 }  // namespace interpolated_motion::silverlode
