@@ -21,8 +21,6 @@ def bound(bus):
 
 
 class AnyDrives(unittest.TestCase):
-    slower = 1.0  # the planner's goal takes so many times its time
-
     @classmethod
     def setUpClass(cls):
         cls.driver = Driver('/driver')
@@ -32,7 +30,7 @@ class AnyDrives(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
 
     def test_a_planner_goal_is_followed(self):
-        status, result = self.driver.action.execute(goal_from_file('six_axis_toppra_100ms_pva.yaml', self.slower))
+        status, result = self.driver.action.execute(goal_from_file('six_axis_toppra_100ms_pva.yaml'))
         self.assertEqual(status, GoalStatus.SUCCEEDED, result)
         report = self.driver.report()
         for i, name in enumerate(JOINTS):
