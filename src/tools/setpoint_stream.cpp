@@ -11,6 +11,7 @@
 
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <fmt/format.h>
+#include <interpolated_motion_driver/BufferStatus.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
 namespace interpolated_motion::tools {
@@ -32,7 +33,8 @@ double sine(double time) { return kAmplitude * (1.0 - std::cos(2.0 * kPi * time)
 class Arm {
  public:
   Arm(ros::NodeHandle& node, const std::string& driver)
-      : subscriber_(node.subscribe(driver + "/state", 10, &Arm::take, this)) {}
+      : state_subscriber_(node.subscribe(driver + "/state", 10, &Arm::take_state, this)),
+        buffer_subscriber_(node.subscribe(driver + "/buffer_status", 1, &Arm::take_buffers, this)) {}
 
   /// False when there is no report in time.
   bool wait(std::vector<std::string>& names, std::vector<double>& positions) {
@@ -49,15 +51,31 @@ class Arm {
     return false;
   }
 
+  /// No drive has records left to execute: the stream has ended. A drive that holds one setpoint and no more
+  /// holds one at rest.
+  bool buffers_are_empty() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t i = 0; i < buffers_.fill.size(); ++i) {
+      if (buffers_.capacity[i] > 1 && buffers_.fill[i] > 0) return false;
+    }
+    return true;
+  }
+
  private:
-  void take(const control_msgs::JointTrajectoryControllerState::ConstPtr& message) {
+  void take_state(const control_msgs::JointTrajectoryControllerState::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     latest_ = *message;
+  }
+  void take_buffers(const interpolated_motion_driver::BufferStatus::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    buffers_ = *message;
   }
 
   std::mutex mutex_;
   control_msgs::JointTrajectoryControllerState latest_;
-  ros::Subscriber subscriber_;
+  interpolated_motion_driver::BufferStatus buffers_;
+  ros::Subscriber state_subscriber_;
+  ros::Subscriber buffer_subscriber_;
 };
 
 int last_of(const StreamOptions& options) {
@@ -98,25 +116,30 @@ int send(const ros::Publisher& publisher, const StreamOptions& options, const st
   return sent;
 }
 
-/// Waits until the arm rests within the tolerance of `goal`; prints where it is not.
-bool comes_to_rest(Arm& arm, const std::vector<double>& goal) {
+/// What speaks against the stream having ended within the tolerance of `goal`; empty when nothing does.
+std::string what_is_off(Arm& arm, const std::vector<double>& goal) {
   std::vector<std::string> names;
   std::vector<double> positions;
+  if (!arm.wait(names, positions)) return "No state of the arm has come.\n";
+  std::string off;
+  for (std::size_t i = 0; i < goal.size(); ++i) {
+    const double error = positions[i] - goal[i];
+    if (std::abs(error) > kTolerance) off += fmt::format("{} is {:.4f} rad off. ", names[i], error);
+  }
+  if (!off.empty()) return off + "Were setpoints refused? The driver's log says why.\n";
+  return arm.buffers_are_empty() ? "" : "The stream has not ended: there are records left in the drives.\n";
+}
+
+/// Waits until the stream has ended, within the tolerance of `goal`; prints what speaks against it in the
+/// end.
+bool comes_to_rest(Arm& arm, const std::vector<double>& goal) {
   const auto end = Clock::now() + kPatience;
   std::string off;
   do {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    if (!arm.wait(names, positions)) return false;
-    off.clear();
-    for (std::size_t i = 0; i < goal.size(); ++i) {
-      const double error = positions[i] - goal[i];
-      if (std::abs(error) > kTolerance) off += fmt::format("{} is {:.4f} rad off. ", names[i], error);
-    }
+    off = what_is_off(arm, goal);
   } while (!off.empty() && ros::ok() && Clock::now() < end);
-  if (!off.empty()) {
-    off += "Were setpoints refused? The driver's log says why.\n";
-    std::fputs(off.c_str(), stdout);
-  }
+  std::fputs(off.c_str(), stdout);
   return off.empty();
 }
 
