@@ -16,8 +16,6 @@ constexpr std::int64_t kLongestRecord = 25;
 /// The bound of a goal may be doubled up to this multiple of it: the knot sent last was chosen for another
 /// way on.
 constexpr double kWidest = 8.0;
-/// An error of play-back time is made good within about this time, s.
-constexpr double kCatchUpTime = 2.0;
 
 }  // namespace
 
@@ -49,19 +47,16 @@ HostTime EposAxis::committed() const {
   return *stream_origin_ + host_duration(knot.count());
 }
 
-/// Goal seconds per second of the drive from then on: its own rate made good, and what it is ahead or behind.
-double EposAxis::rate_from(double drive_seconds) const {
-  if (clock_.follows_host()) return 1.0;
+/// Goal seconds that the drive will be behind when it has played so far.
+double EposAxis::behind_at(double drive_seconds) const {
   const double due = seconds(clock_.host_time(drive_seconds) - *stream_origin_);
-  const double behind = due - timeline_.at(drive_seconds).count();
-  const double most = 2.0 * PlaybackClock::kMaxError;
-  return std::clamp(1.0 / (1.0 + 1e-6 * clock_.error_ppm()) + behind / kCatchUpTime, 1.0 - most, 1.0 + most);
+  return due - timeline_.at(drive_seconds).count();
 }
 
 std::optional<Refusal> EposAxis::plan_follow(const trajectory::Path& path) {
   const encoding::PvtKnot knot = feed_.sent_knot();
   const double from = 1e-3 * static_cast<double>(knot.sample);
-  way_on_rate_ = rate_from(from);
+  way_on_rate_ = clock_.goal_rate(behind_at(from));
   const trajectory::Path rest = trajectory::remainder(path, timeline_.at(from), way_on_rate_);
   encoding::PvtEncoding encoding = stream_encoding();
   auto stream = encoding::encode_pvt(rest, encoding, {0, knot.position, knot.velocity});

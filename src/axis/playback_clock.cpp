@@ -4,6 +4,13 @@
 
 namespace interpolated_motion::axis {
 
+namespace {
+
+/// What a drive is ahead or behind is made good in this time, s.
+constexpr double kCatchUpTime = 2.0;
+
+}  // namespace
+
 PlaybackClock::PlaybackClock(double max_error, double sample, Estimate estimate)
     : max_error_(max_error), sample_(sample), estimate_(estimate) {}
 
@@ -56,6 +63,12 @@ void PlaybackClock::observe_less_than(HostTime when, double drive_seconds) {
   if (!running_ || host <= sample_) return;
   highest_rate_ = std::min(highest_rate_, std::max((drive_seconds + sample_) / host, 1.0 - max_error_));
   lowest_rate_ = std::min(lowest_rate_, highest_rate_);
+}
+
+double PlaybackClock::goal_rate(double behind) const {
+  if (!running_ || follows_host_) return 1.0;
+  const double most = 2.0 * max_error_;
+  return std::clamp(1.0 / rate() + behind / kCatchUpTime, 1.0 - most, 1.0 + most);
 }
 
 double PlaybackClock::error_ppm() const { return running_ ? (rate() - 1.0) * 1e6 : 0.0; }

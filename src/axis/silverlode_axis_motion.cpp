@@ -16,8 +16,6 @@ namespace {
 
 /// Longest the drive may take beyond the duration of its segments, for the error of its clock and the report.
 constexpr HostDuration kOvertime = 500ms;
-/// An error of play-back time is made good within about this time, s.
-constexpr double kCatchUpTime = 2.0;
 /// A look at the drive's clock that differs more than this (s) from what is expected is none.
 constexpr double kPlausible = 0.02;
 /// Looks in a row that must contradict what was sent: one may fall between two segments.
@@ -36,16 +34,12 @@ void SilverlodeAxis::offer(bool more, HostTime now) {
   if (const auto failure = delivery_->offer(more, rate_for_next(), now)) fail_in_motion(*failure, now);
 }
 
-/// Goal seconds per drive second for the next segment: the drive's own rate made good, and what it is ahead
-/// or behind.
+/// Goal seconds per drive second for the next segment.
 double SilverlodeAxis::rate_for_next() const {
   if (!clock_.running()) return 1.0;
-  const double drive_rate = 1.0 + 1e-6 * clock_.error_ppm();
   const HostTime knot = clock_.host_time(feed_.queue_end());
   const double due = (feed_.start_goal_time() + GoalTime{seconds(knot - begin_)}).count();
-  const double behind = due - feed_.knot_goal_time().count();
-  const double rate = 1.0 / drive_rate + behind / kCatchUpTime;
-  return std::clamp(rate, 1.0 - 2.0 * parameters_.max_clock_error, 1.0 + 2.0 * parameters_.max_clock_error);
+  return clock_.goal_rate(due - feed_.knot_goal_time().count());
 }
 
 void SilverlodeAxis::poll_moving(HostTime now) {

@@ -96,6 +96,21 @@ TEST(PlaybackClock, ADriveThatFollowsTheHostPlaysAtItsRate) {
   EXPECT_DOUBLE_EQ(clock.least_elapsed(at(10.001)), 0.0);
 }
 
+TEST(PlaybackClock, PlanIsWrittenAtTheDrivesRateAndWhatItIsBehindMadeGood) {
+  PlaybackClock clock(5e-4, 1e-3, PlaybackClock::Estimate::Middle);
+  EXPECT_DOUBLE_EQ(clock.goal_rate(0.1), 1.0) << "nothing plays";
+  clock.start(at(0.0));
+  clock.observe_at_least(at(1000.0), 1000.1);
+  clock.observe_less_than(at(1000.0), 1000.1);
+  EXPECT_NEAR(clock.error_ppm(), 100.0, 1.0);
+  EXPECT_NEAR(clock.goal_rate(0.0), 1.0 - 100e-6, 1.5e-6);
+  EXPECT_NEAR(clock.goal_rate(0.4e-3), 1.0 + 100e-6, 1.5e-6) << "in two seconds";
+  EXPECT_DOUBLE_EQ(clock.goal_rate(1.0), 1.001);
+  EXPECT_DOUBLE_EQ(clock.goal_rate(-1.0), 0.999);
+  clock.start(at(2000.0), true);
+  EXPECT_DOUBLE_EQ(clock.goal_rate(0.4e-3), 1.0) << "the drive makes it good itself";
+}
+
 // What the FIFO has told until then is not lost.
 TEST(PlaybackClock, ADriveThatStopsFollowingIsKnownByWhatWasSeen) {
   PlaybackClock clock(5e-4, 1e-3);

@@ -115,7 +115,7 @@ class EposAxis : public Cia402Axis {
 
   encoding::PvtEncoding encoding() const;
   encoding::PvtEncoding stream_encoding() const;
-  double rate_from(double drive_seconds) const;
+  double behind_at(double drive_seconds) const;
   void start_loading(HostTime now);
   void start_emptying(HostTime now);
   void feed(HostTime now);

@@ -56,6 +56,11 @@ class PlaybackClock {
   /// At `when` the drive had not yet played `drive_seconds`.
   void observe_less_than(HostTime when, double drive_seconds);
 
+  /// Seconds of the plan to write per second of the drive from now on, for a drive that is `behind` (s;
+  /// negative: ahead) where it should be: its own rate is made good, and what it is behind within two
+  /// seconds. Differs from 1 by at most twice `max_error`; is 1 for a drive that follows the host.
+  double goal_rate(double behind) const;
+
   /// Estimated error of the drive's clock against the host's, ppm; 0 while it follows the host.
   double error_ppm() const;
 
