@@ -13,9 +13,6 @@ namespace {
 
 /// Longest record of a stream, ms: a record is committed as a whole.
 constexpr std::int64_t kLongestRecord = 25;
-/// The bound of a goal may be doubled up to this multiple of it: the knot sent last was chosen for another
-/// way on.
-constexpr double kWidest = 8.0;
 
 }  // namespace
 
@@ -53,6 +50,7 @@ double EposAxis::behind_at(double drive_seconds) const {
   return due - timeline_.at(drive_seconds).count();
 }
 
+// The knot sent last was chosen for another way on: within the bound of a goal there may be none.
 std::optional<Refusal> EposAxis::plan_follow(const trajectory::Path& path) {
   const encoding::PvtKnot knot = feed_.sent_knot();
   const double from = 1e-3 * static_cast<double>(knot.sample);
@@ -60,7 +58,7 @@ std::optional<Refusal> EposAxis::plan_follow(const trajectory::Path& path) {
   const trajectory::Path rest = trajectory::remainder(path, timeline_.at(from), way_on_rate_);
   encoding::PvtEncoding encoding = stream_encoding();
   auto stream = encoding::encode_pvt(rest, encoding, {0, knot.position, knot.velocity});
-  while (!stream && 2.0 * encoding.bound_counts <= kWidest * parameters_.deviation_bound) {
+  while (!stream && 2.0 * encoding.bound_counts <= parameters_.stream_deviation_bound) {
     encoding.bound_counts *= 2.0;
     stream = encoding::encode_pvt(rest, encoding, {0, knot.position, knot.velocity});
   }

@@ -12,9 +12,6 @@ namespace {
 
 /// Longest segment of a stream, as multiple of the shortest one: a segment is committed as a whole.
 constexpr std::int64_t kLongest = 2;
-/// The bound of a goal may be doubled up to so much of the joint, rad, whatever its gear: a ramp that the
-/// line can follow is long beside the time between two setpoints.
-constexpr double kWidest = 0.02;
 
 }  // namespace
 
@@ -50,7 +47,7 @@ HostTime SilverlodeAxis::committed() const {
 
 std::optional<Refusal> SilverlodeAxis::plan_follow(const trajectory::Path& path) {
   const trajectory::Path own = trajectory::shifted(path, GoalTime{0.0} - stream_begin_);
-  return feed_.plan_way_on(own, stream_encoding(), kWidest * std::abs(counts_per_radian()));
+  return feed_.plan_way_on(own, stream_encoding(), parameters_.stream_deviation_bound);
 }
 
 void SilverlodeAxis::follow() { feed_.take_way_on(); }

@@ -25,6 +25,7 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
   parameters.transmission = drive.transmission;
   parameters.limits = drive.limits;
   parameters.deviation_bound = drive.deviation_bound;
+  parameters.stream_deviation_bound = drive.stream_deviation_bound;
   parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
@@ -47,6 +48,7 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   parameters.transmission = drive.transmission;
   parameters.limits = drive.limits;
   parameters.deviation_bound = drive.deviation_bound;
+  parameters.stream_deviation_bound = drive.stream_deviation_bound;
   parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;

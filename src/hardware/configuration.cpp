@@ -150,6 +150,16 @@ double default_bound(DriveType type) {
   return 5.0;
 }
 
+/// Counts, the same in a stream of setpoints. Segments of SilverLode drives are long beside the time between
+/// two setpoints; so how far off they are is a matter of the motion and not of the encoder.
+double default_stream_bound(const DriveConfiguration& drive) {
+  constexpr double kSilverlode = 0.02;  // rad
+  const double bound = drive.type == DriveType::SilverlodeIms
+                           ? kSilverlode * std::abs(drive.transmission.counts_per_radian())
+                           : 8.0 * drive.deviation_bound;
+  return std::max(bound, drive.deviation_bound);
+}
+
 DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader, const Urdf& urdf) {
   DriveConfiguration drive;
   drive.joint = joint;
@@ -161,6 +171,10 @@ DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader,
   drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
   drive.deviation_bound = reader.number("deviation_bound", default_bound(drive.type), 0.6, 1000.0);
+  if (drive.type != DriveType::Cyclic) {
+    drive.stream_deviation_bound =
+        reader.number("stream_deviation_bound", default_stream_bound(drive), drive.deviation_bound, 1e6);
+  }
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
   if (drive.type != DriveType::SilverlodeIms) {

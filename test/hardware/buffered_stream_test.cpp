@@ -149,6 +149,22 @@ TEST_P(BufferedStream, StaysTogetherOnDrivesWithOtherClocks) {
   EXPECT_EQ(underruns(), 0U);
 }
 
+// Without a bound of its own the stream comes to more than 32 counts at places, see docs/setpoints.md.
+TEST_F(SetpointStreaming, WhatNeedsMoreThanTheStreamsBoundIsRefused) {
+  std::string drives;
+  for (int i = 1; i <= 6; ++i) drives += fmt::format("joint{}: {{stream_deviation_bound: 32}}, ", i);
+  start(six_axis_silverlode("{drives: {" + drives + "}}"), 0.274);
+  std::string refusal;
+  for (int k = 0; k < 500; ++k) {
+    if (const auto why = send(setpoint(scenario->now(), position_at(k * kPeriod)))) refusal = why->text;
+    run(kPeriod);
+  }
+  for (const char* part : {"Joint 'joint", "counts", "32"})
+    EXPECT_NE(refusal.find(part), std::string::npos) << refusal;
+  EXPECT_EQ(scenario->state(), GroupState::Streaming) << scenario->snapshot().fault;
+  for (const auto& joint : report().joints) EXPECT_LE(joint.worst_deviation, 32.0);
+}
+
 // Lost setpoints, with and without going on at the velocity of the newest one.
 TEST_F(SetpointStreaming, WithoutRidingThroughEposDrivesBrakeAtEveryGap) {
   const auto slowest = [this] {

@@ -13,8 +13,9 @@ namespace interpolated_motion::axis {
 struct EposAxisParameters {
   std::string joint;
   encoding::Transmission transmission;
-  trajectory::JointLimits limits;  ///< velocity and acceleration must be finite
-  double deviation_bound = 1.0;    ///< counts, at any drive sample
+  trajectory::JointLimits limits;       ///< velocity and acceleration must be finite
+  double deviation_bound = 1.0;         ///< counts, at any drive sample
+  double stream_deviation_bound = 8.0;  ///< counts, up to which it may be doubled in a stream of setpoints
   double limit_margin = 1.2;  ///< the drive's own fault limits (0x607F, 0x60C5) are the joint's times this
   double max_following_error = 0.1;  ///< rad, 0x6065
   double commit_horizon = 2.0;       ///< s of motion kept in the drive's FIFO

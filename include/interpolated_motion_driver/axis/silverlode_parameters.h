@@ -16,8 +16,9 @@ namespace interpolated_motion::axis {
 struct SilverlodeAxisParameters {
   std::string joint;
   encoding::Transmission transmission;
-  trajectory::JointLimits limits;  ///< velocity and acceleration must be finite
-  double deviation_bound = 2.0;    ///< counts, at any servo tick
+  trajectory::JointLimits limits;         ///< velocity and acceleration must be finite
+  double deviation_bound = 2.0;           ///< counts, at any servo tick
+  double stream_deviation_bound = 500.0;  ///< counts, up to which it may be doubled in a stream of setpoints
   double limit_margin = 1.2;  ///< segments may exceed the joint's acceleration by this factor between knots
   double max_following_error = 0.1;  ///< rad, ERL
   double commit_horizon = 2.0;       ///< s of motion kept in the drive's queue

@@ -124,8 +124,10 @@ struct DriveConfiguration {
   SilverlodeConfiguration silverlode;
   CyclicConfiguration cyclic;
   encoding::Transmission transmission;
-  trajectory::JointLimits limits;    ///< URDF limits, tightened by the configuration
-  double deviation_bound = 1.0;      ///< counts, worst deviation from the path at any drive sample
+  trajectory::JointLimits limits;  ///< URDF limits, tightened by the configuration
+  double deviation_bound = 1.0;    ///< counts, worst deviation from the path at any drive sample
+  /// counts, the same where the path is still being made; without meaning for cyclic drives
+  double stream_deviation_bound = 8.0;
   double max_following_error = 0.1;  ///< rad, written to 0x6065
   double limit_margin = 1.2;  ///< 1..10; drive-side fault limits (0x607F, 0x60C5) = joint limits times this
   EmulationConfiguration emulation;
