@@ -68,8 +68,15 @@ void Cia402Axis::poll(HostTime now) {
 
 void Cia402Axis::note_stall(HostTime now) {
   const HostDuration away = now - polled_;
-  if (away > kHostStall && polled_ >= since_) away_ += away;
+  if (away > kHostStall) {
+    if (polled_ >= since_) away_ += away;
+    present_since_ = now;
+  }
   polled_ = now;
+}
+
+HostDuration Cia402Axis::silence(HostTime now, HostTime last) const {
+  return now - std::max(last, present_since_);
 }
 
 void Cia402Axis::begin_phase(HostTime now) {

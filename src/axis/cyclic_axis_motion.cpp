@@ -126,7 +126,7 @@ void CyclicAxis::poll_moving(HostTime now) {
                             telemetry_.statusword.text()),
                 now);
   }
-  if (now - feedback_.time > parameters_.feedback_timeout) {
+  if (silence(now, feedback_.time) > parameters_.feedback_timeout) {
     return fail(
         fmt::format("no position has come from the drive for {:.2f} s", seconds(now - feedback_.time)), now);
   }

@@ -195,7 +195,7 @@ void EposAxis::poll_moving(HostTime now) {
 
 void EposAxis::watch_motion(HostTime now) {
   if (!telemetry_.statusword.ip_mode_active()) return end_of_motion(now);
-  if (now - feedback_.time > parameters_.feedback_timeout) {
+  if (silence(now, feedback_.time) > parameters_.feedback_timeout) {
     return fail_in_motion(
         fmt::format("no position has come from the drive for {:.2f} s", seconds(now - feedback_.time)), now);
   }

@@ -35,7 +35,7 @@ axis::EposAxisParameters epos_parameters(const Configuration& configuration, con
   parameters.clock_discipline = bus.clock_discipline;
   parameters.heartbeat_period = host_duration(bus.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
-  parameters.feedback_timeout = parameters.heartbeat_timeout;
+  parameters.feedback_timeout = host_duration(bus.feedback_timeout);
   parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }
@@ -84,6 +84,7 @@ axis::CyclicAxisParameters cyclic_parameters(const Configuration& configuration,
   parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
   parameters.heartbeat_period = host_duration(bus.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
+  parameters.feedback_timeout = host_duration(bus.feedback_timeout);
   parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }

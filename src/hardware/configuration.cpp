@@ -32,6 +32,15 @@ const std::vector<std::pair<std::string, std::uint32_t>> kBitrates = {
     {"1000000", 1000000}, {"800000", 800000}, {"500000", 500000}, {"250000", 250000},
     {"125000", 125000},   {"50000", 50000},   {"20000", 20000}};
 
+/// As long as the drive's own patience with the host, so that a drive whose cable is cut and the others brake
+/// at the same time. A SYNC waits for the answer to the last one, a quarter of heartbeat_timeout at most: so
+/// much a silent drive puts off the positions of the others.
+void parse_feedback_timeout(ParameterReader& reader, BusConfiguration& bus) {
+  const double least = 0.25 * bus.heartbeat_timeout + 2.0 * bus.sync_period;
+  bus.feedback_timeout =
+      reader.number("feedback_timeout", std::max(bus.heartbeat_timeout, least), least, 60.0);
+}
+
 void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
   bus.bitrate = reader.choice("bitrate", bus.bitrate, kBitrates);
   bus.sync_period = reader.number("sync_period", bus.sync_period, 0.001, 0.1);
@@ -42,6 +51,7 @@ void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
                 fmt::format("is {} s; it must be at least 1.5 times heartbeat_period ({} s)",
                             bus.heartbeat_timeout, bus.heartbeat_period));
   }
+  parse_feedback_timeout(reader, bus);
   bus.host_node_id = static_cast<int>(reader.integer("host_node_id", bus.host_node_id, 1, 127));
   bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);
   bus.clock_discipline = reader.boolean("clock_discipline", bus.clock_discipline);

@@ -43,6 +43,9 @@ const BadConfiguration kBad[] = {
     {"DisciplineIsYesOrNo",
      "{buses: {can0: {clock_discipline: sometimes}}}",
      {"buses/can0/clock_discipline", "sometimes"}},
+    {"FeedbackTimeoutWithinWhatASyncWaits",
+     "{buses: {can0: {heartbeat_timeout: 2.0, sync_period: 0.01, feedback_timeout: 0.5}}}",
+     {"buses/can0/feedback_timeout", "0.5", "0.52..60"}},
     {"HeartbeatTooTight", "{buses: {can0: {heartbeat_timeout: 0.1}}}", {"heartbeat_timeout", "1.5"}},
 };
 

@@ -51,7 +51,6 @@ TEST(LongMotion, TenMinutesWithUnequalClocks) {
   }
 }
 
-// A host that stalls for less than the horizon costs nothing: the FIFOs are sized in time.
 TEST(LongMotion, GoalAfterGoalNothingAddsUp) {
   Scenario scenario(arm_of(2));
   ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));

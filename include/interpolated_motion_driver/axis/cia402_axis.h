@@ -85,6 +85,8 @@ class Cia402Axis : public Axis {
   /// `limit` is over since the stage or phase began. It is for the drive: what the host was away for does not
   /// count.
   bool expired(HostTime now, HostDuration limit) const { return now - since_ - away_ > limit; }
+  /// How long nothing has come from the drive since `last`, as far as the host was there to hear it.
+  HostDuration silence(HostTime now, HostTime last) const;
   /// True when the steps are done; a failure is a fault.
   bool sequence_done(HostTime now);
   void fail(const std::string& reason, HostTime now);
@@ -142,6 +144,7 @@ class Cia402Axis : public Axis {
   HostTime since_{};     ///< begin of the stage, or of the phase of an enabled drive
   HostDuration away_{};  ///< of the host, since then
   HostTime polled_{};
+  HostTime present_since_{};  ///< end of the host's last absence
   HostTime bring_up_since_{};
   bool configured_ = false;
   std::string fault_text_;

@@ -72,6 +72,7 @@ struct BusConfiguration {
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
   double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats
   double heartbeat_timeout = 0.5;     ///< s without a heartbeat until the other side counts as lost
+  double feedback_timeout = 0.5;      ///< s without a position from a drive in motion until the motion ends
   int host_node_id = 127;             ///< CANopen node id of this host
   double max_load = 0.6;              ///< share of the bit rate that motion records may fill, 0..1
   double sdo_timeout = 0.2;           ///< s
