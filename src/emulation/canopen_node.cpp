@@ -1,7 +1,6 @@
 #include "interpolated_motion_driver/emulation/canopen_node.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace interpolated_motion::emulation {
 namespace {
@@ -15,16 +14,10 @@ constexpr std::uint32_t kErrorControl = 0x700;
 
 constexpr std::int64_t kInvalidCobId = std::int64_t{1} << 31;
 constexpr std::uint16_t kConnectionError = 0x8130;
-constexpr std::uint8_t kCommunicationError = 0x10;  // bit 4 of 0x1001
 
 constexpr std::size_t kResponses = 32;
 // Segments of a block upload sent in one sample: leaves room in the transmit queue for PDOs.
 constexpr int kSegmentsPerSample = 8;
-constexpr double kNanosecondsPerMillisecond = 1e6;
-
-double real_period_ns(HostDuration nominal, double ppm) {
-  return static_cast<double>(nominal.count()) / (1.0 + ppm * 1e-6);
-}
 
 }  // namespace
 
@@ -36,12 +29,9 @@ CanopenNode::CanopenNode(transport::VirtualCanBus& bus, transport::CanListener& 
       objects_(objects),
       now_(now),
       power_event_(now),
-      period_ns_(real_period_ns(settings.sample_period, settings.clock_error_ppm)),
-      epoch_(now),
-      last_sample_(now),
-      next_sample_(now),
+      clock_(settings.clock, now),
       sdo_(*this),
-      pdo_(objects, true, *this) {
+      pdo_(objects, settings.pdo_setup_only_pre_operational, *this) {
   power_up(now);
 }
 
@@ -56,13 +46,9 @@ void CanopenNode::power_up(HostTime now) {
 
 void CanopenNode::finish_boot(HostTime now) {
   power_ = Power::On;
-  samples_ = 0;
-  last_sample_ = now;
-  epoch_ = now + settings_.sample_phase;
-  samples_since_epoch_ = 0;
-  schedule_sample();
+  clock_.restart(now + settings_.sample_phase);
   errors_ = ErrorStore();
-  objects_.restore(objects_.defaults());
+  objects_.restore(initial_values());
   nmt_.boot();
   apply_communication();
   publish_errors();
@@ -86,28 +72,16 @@ void CanopenNode::silence(bool silent, HostTime now) {
   update_connection(now);
 }
 
-void CanopenNode::set_clock_error(double ppm) {
-  period_ns_ = real_period_ns(settings_.sample_period, ppm);
-  epoch_ = next_sample_;
-  samples_since_epoch_ = 0;
-}
-
-void CanopenNode::schedule_sample() {
-  next_sample_ = epoch_ + HostDuration(std::llround(static_cast<double>(samples_since_epoch_) * period_ns_));
-}
-
-double CanopenNode::own_time() const {
-  return static_cast<double>(samples_) + static_cast<double>((now_ - last_sample_).count()) / period_ns_;
-}
+void CanopenNode::set_clock_error(double ppm) { clock_.set_error(ppm); }
 
 std::int64_t CanopenNode::milliseconds() const {
-  const double period_ms = static_cast<double>(settings_.sample_period.count()) / kNanosecondsPerMillisecond;
-  return static_cast<std::int64_t>(own_time() * period_ms);
+  return clock_.samples() * settings_.clock.sample_period / std::chrono::milliseconds(1);
 }
 
 HostTime CanopenNode::next_event() const {
   if (!on()) return power_event_;
-  return responses_.empty() ? next_sample_ : std::min(next_sample_, responses_.front().due);
+  const HostTime sample = clock_.next_sample();
+  return responses_.empty() ? sample : std::min(sample, responses_.front().due);
 }
 
 void CanopenNode::process(HostTime now) {
@@ -119,12 +93,9 @@ void CanopenNode::process(HostTime now) {
     transmit(responses_.front().frame);
     responses_.pop_front();
   }
-  while (on() && next_sample_ <= now) {
-    now_ = next_sample_;
-    last_sample_ = next_sample_;
-    ++samples_;
-    ++samples_since_epoch_;
-    schedule_sample();
+  while (on() && clock_.next_sample() <= now) {
+    now_ = clock_.next_sample();
+    clock_.take_sample();
     run_sample();
   }
 }
@@ -145,7 +116,8 @@ void CanopenNode::run_sample() {
 
 void CanopenNode::watch_connections() {
   if (!nmt_.connection_lost(milliseconds())) return;
-  emergency(kConnectionError, kCommunicationError, now_);
+  emergency(kConnectionError, settings_.communication_error_register, now_);
+  if (settings_.pre_operational_on_heartbeat_loss && nmt_.operational()) nmt_.enter_pre_operational();
   connection_lost();
 }
 
@@ -196,12 +168,17 @@ void CanopenNode::on_frame(const canopen::Frame& frame, HostTime time) {
   if (frame.id > kErrorControl && frame.id <= kErrorControl + 127) return on_error_control(frame);
   if (!nmt_.operational()) return;
   if (frame.id == kSync) {
-    if (!frame.remote) pdo_.on_sync();
+    if (!frame.remote) on_sync(time);
   } else if (frame.remote) {
     pdo_.on_remote_request(frame);
   } else {
     pdo_.on_frame(frame);
   }
+}
+
+void CanopenNode::on_sync(HostTime time) {
+  clock_.latch(time);
+  pdo_.on_sync();
 }
 
 void CanopenNode::on_nmt(const canopen::Frame& frame) {
@@ -212,7 +189,7 @@ void CanopenNode::on_nmt(const canopen::Frame& frame) {
       break;
     case NmtAction::Entered:
       sdo_.reset();
-      if (nmt_.operational()) pdo_.start();
+      if (nmt_.operational()) enter_operational();
       break;
     case NmtAction::ResetNode:
       return power_up(now_);
@@ -224,6 +201,11 @@ void CanopenNode::on_nmt(const canopen::Frame& frame) {
       break;
   }
   publish_status();
+}
+
+void CanopenNode::enter_operational() {
+  clock_.forget_reference();
+  pdo_.start();
 }
 
 bool CanopenNode::sdo_allowed() const {
@@ -259,7 +241,7 @@ void CanopenNode::pump_segments() {
 void CanopenNode::on_error_control(const canopen::Frame& frame) {
   const auto node = static_cast<std::uint8_t>(frame.id - kErrorControl);
   if (!frame.remote) {
-    if (frame.length == 1) nmt_.on_heartbeat(node, milliseconds());
+    if (frame.length == 1 && nmt_.on_heartbeat(node, milliseconds())) heartbeat_heard();
   } else if (node == settings_.node_id) {
     send_state(nmt_.guard(milliseconds()));
   }

@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::uint16_t kFirstOfDrive = 0x2000;  // below: communication profile area (CiA 301)
 constexpr std::uint16_t kPdoLengthError = 0x8210;
-constexpr std::uint8_t kCommunicationError = 0x10;
 
 std::uint64_t raw_value(const std::uint8_t* data, std::size_t size) {
   std::uint64_t raw = 0;
@@ -53,7 +52,9 @@ void CanopenNode::pdo_write(ObjectDictionary::Slot slot, std::uint64_t raw) {
   static_cast<void>(write(slot, static_cast<std::size_t>(size_of(objects_.entry(slot).type)), raw));
 }
 
-void CanopenNode::pdo_too_short() { emergency(kPdoLengthError, kCommunicationError, now_); }
+void CanopenNode::pdo_too_short() {
+  emergency(kPdoLengthError, settings_.communication_error_register, now_);
+}
 
 bool CanopenNode::pdo_send(const canopen::Frame& frame) { return transmit(frame); }
 
@@ -66,42 +67,48 @@ AbortCode CanopenNode::write(ObjectDictionary::Slot slot, std::size_t size, std:
     code = pdo_.check(slot, value, nmt_.operational());
   } else if (entry.index == 0x1003) {
     code = value == 0 ? AbortCode::None : AbortCode::ValueRange;
-  } else if (entry.index >= kFirstOfDrive) {
+  } else {
     code = check_value(entry, value);
   }
   if (code != AbortCode::None) return code;
+  if (const auto diverted = divert(entry, raw)) return *diverted;
   objects_.set(slot, value);
-  if (entry.index < kFirstOfDrive) {
-    communication_written(entry, value);
-  } else {
-    written(entry, value);
-  }
+  if (!communication_written(entry, value)) written(entry, value);
   publish_status();
   return AbortCode::None;
 }
 
-void CanopenNode::communication_written(const ObjectEntry& entry, std::int64_t value) {
-  if (PdoEngine::concerns(entry.index)) return pdo_.configure();
+// False for an object that means nothing to the node itself.
+bool CanopenNode::communication_written(const ObjectEntry& entry, std::int64_t value) {
+  if (PdoEngine::concerns(entry.index)) {
+    pdo_.configure();
+    return true;
+  }
   switch (entry.index) {
     case 0x1003:
       errors_.clear_history();
-      return publish_errors();
+      publish_errors();
+      return true;
     case 0x1016:
-      return nmt_.set_consumer(entry.subindex - 1, static_cast<std::uint32_t>(value));
+      nmt_.set_consumer(entry.subindex - 1, static_cast<std::uint32_t>(value));
+      return true;
     case 0x1017:
-      return nmt_.set_producer_time(static_cast<std::uint16_t>(value), milliseconds());
+      nmt_.set_producer_time(static_cast<std::uint16_t>(value), milliseconds());
+      return true;
     case 0x100C:
     case 0x100D:
-      return nmt_.set_life_time(this->value(0x100C, 0) * this->value(0x100D, 0));
+      nmt_.set_life_time(this->value(0x100C, 0) * this->value(0x100D, 0));
+      return true;
     default:
-      return;
+      return false;
   }
 }
 
 void CanopenNode::restore_communication() {
+  const ObjectDictionary::Values initial = initial_values();
   for (ObjectDictionary::Slot slot = 0; slot < objects_.size(); ++slot) {
     const ObjectEntry& entry = objects_.entry(slot);
-    if (entry.index < kFirstOfDrive && entry.writable()) objects_.set(slot, objects_.defaults()[slot]);
+    if (entry.index < kFirstOfDrive && entry.writable()) objects_.set(slot, initial[slot]);
   }
   publish_errors();
 }

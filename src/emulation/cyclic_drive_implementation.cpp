@@ -20,8 +20,8 @@ NodeSettings node_settings(const CyclicParameters& parameters) {
   NodeSettings settings;
   settings.node_id = parameters.node_id;
   settings.device_name = parameters.device_name;
-  settings.clock_error_ppm = parameters.clock_error_ppm;
-  settings.sample_period = parameters.servo_period;
+  settings.clock.error_ppm = parameters.clock_error_ppm;
+  settings.clock.sample_period = parameters.servo_period;
   settings.sample_phase = parameters.tick_phase;
   settings.boot_time = parameters.boot_time;
   settings.sdo_response_time = parameters.sdo_response_time;

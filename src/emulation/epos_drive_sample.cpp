@@ -7,12 +7,10 @@
 namespace interpolated_motion::emulation {
 namespace {
 
-constexpr std::uint16_t kConnectionError = 0x8130;
 constexpr std::uint16_t kFollowingError = 0x8611;
+constexpr std::uint16_t kInterpolationError = 0xFF0C;
+constexpr std::uint16_t kPositionLimitError = 0xFF09;
 constexpr std::int64_t kNoLimit = 0xFFFFFFFF;
-
-// Segments of a block upload sent in one sample: leaves room in the transmit queue for PDOs.
-constexpr int kSegmentsPerSample = 8;
 
 constexpr ObjectDictionary::Slot kPositionDemand = kObject<0x6062, 0>;
 constexpr ObjectDictionary::Slot kPositionActual = kObject<0x6064, 0>;
@@ -33,42 +31,9 @@ std::int64_t to_int16(double value) {
 }  // namespace
 
 void EposDrive::Implementation::sample() {
-  ++milliseconds_;
-  if (!nmt_.communicating()) {
-    nmt_.boot();
-    apply_communication_parameters();
-    send_state(static_cast<std::uint8_t>(NmtState::BootUp));
-  }
-  watch_connections();
   move();
   publish_motion();
   if (observer_) observe();
-  if (nmt_.heartbeat_due(milliseconds_)) send_state(static_cast<std::uint8_t>(nmt_.state()));
-  if (nmt_.operational()) pdo_.tick(milliseconds_ * 10);
-  pump_segments();
-}
-
-void EposDrive::Implementation::watch_connections() {
-  if (!nmt_.connection_lost(milliseconds_)) return;
-  connection_error_ = true;
-  emergency(kConnectionError, parameters_.communication_error_register, now_);
-  if (parameters_.pre_operational_on_heartbeat_loss && nmt_.operational()) nmt_.enter_pre_operational();
-  switch (objects_.get(kObject<0x6007, 0>)) {
-    case 1:
-      stop_interpolation();
-      device_.fault(option_codes());
-      break;
-    case 2:
-      stop_interpolation();
-      device_.disable_voltage();
-      break;
-    case 3:
-      stop_interpolation();
-      if (device_.operation_enabled()) device_.quick_stop();
-      break;
-    default:
-      break;
-  }
 }
 
 void EposDrive::Implementation::move() {
@@ -109,6 +74,15 @@ void EposDrive::Implementation::interpolate() {
   handle(ip_.sample(demand_));
 }
 
+void EposDrive::Implementation::handle(InterpolationEvent event) {
+  if (!is_error(event)) return;
+  if (event == InterpolationEvent::PositionLimit) {
+    fault(kPositionLimitError, parameters_.motion_error_register, now());
+  } else {
+    fault(kInterpolationError, parameters_.interpolation_error_register, now());
+  }
+}
+
 double EposDrive::Implementation::ramp_deceleration() const {
   return device_.ramp() == StopRamp::Profile ? profile_deceleration_ : quick_stop_deceleration_;
 }
@@ -137,7 +111,7 @@ void EposDrive::Implementation::check_following_error() {
   if (limit == kNoLimit || std::abs(demand_.position - plant_.position()) <= static_cast<double>(limit))
     return;
   if (device_.state() == DeviceState::FaultReaction) return;
-  fault(kFollowingError, parameters_.motion_error_register, now_);
+  fault(kFollowingError, parameters_.motion_error_register, now());
 }
 
 void EposDrive::Implementation::watch_position_window() {
@@ -156,26 +130,16 @@ void EposDrive::Implementation::publish_motion() {
   objects_.set(kVelocitySensor, speed);
   objects_.set(kFollowingErrorActual, to_int16(demand_.position - actual));
   watch_position_window();
-  publish_status();
 }
 
 void EposDrive::Implementation::observe() {
   EposSample sample;
-  sample.time = now_;
+  sample.time = now();
   sample.samples_since_start = ip_.samples();
   sample.interpolating = interpolated_sample_;
   sample.demand = demand_.position;
   sample.actual = static_cast<std::int32_t>(objects_.get(kPositionActual));
   observer_(sample);
-}
-
-void EposDrive::Implementation::pump_segments() {
-  if (!sdo_allowed()) return;
-  for (int i = 0; i < kSegmentsPerSample && bus_.free_slots(port_) > 1; ++i) {
-    const auto segment = sdo_.next_segment();
-    if (!segment) return;
-    respond(*segment);
-  }
 }
 
 }  // namespace interpolated_motion::emulation

@@ -6,13 +6,15 @@
 namespace interpolated_motion::emulation {
 namespace {
 
-constexpr double kSample = 1e6;  // ns
 constexpr double kMicrosecond = 1e3;
 
 }  // namespace
 
-MotionClock::MotionClock(const EposParameters& parameters, HostTime now)
-    : parameters_(parameters), crystal_(parameters.clock_error_ppm, now), next_sample_(now) {}
+MotionClock::MotionClock(const MotionClockSettings& settings, HostTime now)
+    : settings_(settings),
+      period_(static_cast<double>(settings.sample_period.count())),
+      crystal_(settings.error_ppm, now),
+      next_sample_(now) {}
 
 void MotionClock::restart(HostTime first) {
   crystal_.restart(first);
@@ -23,12 +25,16 @@ void MotionClock::restart(HostTime first) {
 }
 
 void MotionClock::schedule() {
-  next_sample_ = crystal_.time_of(static_cast<double>(samples_) * kSample - correction_);
+  next_sample_ = crystal_.time_of(static_cast<double>(samples_) * period_ - correction_);
+}
+
+double MotionClock::samples_at(HostTime when) const {
+  return 1.0 + (crystal_.count(when) + correction_) / period_;
 }
 
 void MotionClock::take_sample() {
   ++samples_;
-  const auto slew = static_cast<double>(parameters_.clock_slew.count());
+  const auto slew = static_cast<double>(settings_.slew.count());
   correction_ += std::clamp(wanted_correction_ - correction_, -slew, slew);
   schedule();
 }
@@ -51,7 +57,7 @@ std::uint32_t MotionClock::latched_microseconds() const {
 }
 
 void MotionClock::take_time_stamp(std::uint32_t microseconds) {
-  if (!parameters_.clock_discipline || !latched_) return;
+  if (!settings_.discipline || !latched_) return;
   latched_ = false;
   // Both count modulo 2^32 us: so does their difference, and the shorter way round is meant.
   const double difference =

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "interpolated_motion_driver/emulation/error_store.h"
+#include "interpolated_motion_driver/emulation/motion_clock.h"
 #include "interpolated_motion_driver/emulation/nmt_slave.h"
 #include "interpolated_motion_driver/emulation/object_dictionary.h"
 #include "interpolated_motion_driver/emulation/pdo_engine.h"
@@ -20,11 +22,13 @@ namespace interpolated_motion::emulation {
 struct NodeSettings {
   std::uint8_t node_id = 1;
   std::string device_name;  ///< 0x1008
-  double clock_error_ppm = 0.0;
-  HostDuration sample_period = std::chrono::milliseconds(1);  ///< nominal, on the node's own crystal
-  HostDuration sample_phase{};                                ///< of the first sample after boot
+  MotionClockSettings clock;
+  HostDuration sample_phase{};  ///< of the first sample after boot
   HostDuration boot_time = std::chrono::milliseconds(200);
   HostDuration sdo_response_time{};
+  std::uint8_t communication_error_register = 0x10;  ///< bits added to 0x1001 with EMCY 0x8130 and 0x8210
+  bool pre_operational_on_heartbeat_loss = false;
+  bool pdo_setup_only_pre_operational = true;  ///< PDO parameters written in Operational are aborted
 };
 
 /// The CANopen side of an emulated drive (CiA 301): power and boot, own crystal, NMT, SDO, PDO, EMCY,
@@ -54,7 +58,10 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   CanopenNode(transport::VirtualCanBus& bus, transport::CanListener& listener, const NodeSettings& settings,
               ObjectDictionary& objects, HostTime now);
 
-  /// Booted: every volatile state begins anew. The objects have their defaults.
+  /// What the objects are after power-up or a reset; of the latter NMT resets those below 0x2000 alone, if
+  /// it is of the communication.
+  virtual ObjectDictionary::Values initial_values() const { return objects_.defaults(); }
+  /// Booted: every volatile state begins anew. The objects have their initial values.
   virtual void booted() = 0;
   /// The supply has been switched off.
   virtual void powered_off() = 0;
@@ -62,11 +69,18 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   virtual void sample() = 0;
   /// The heartbeat of a watched node, or node guarding, has failed; the EMCY message has been sent.
   virtual void connection_lost() = 0;
+  /// A heartbeat of a watched node has come.
+  virtual void heartbeat_heard() {}
   /// Objects derived from the state are to be brought up to date.
   virtual void publish_status() = 0;
-  /// Rules for writing an object from 0x2000 on that go beyond type and range.
+  /// Rules for writing an object that go beyond type and range and beyond what CiA 301 says of PDOs and
+  /// errors.
   virtual AbortCode check_value(const ObjectEntry& entry, std::int64_t value) const = 0;
-  /// An object from 0x2000 on has been written.
+  /// A value that goes elsewhere than into its object: what becomes of it.
+  virtual std::optional<AbortCode> divert(const ObjectEntry& /*entry*/, std::uint64_t /*raw*/) {
+    return std::nullopt;
+  }
+  /// An object has been written that means nothing to the node itself.
   virtual void written(const ObjectEntry& entry, std::int64_t value) = 0;
 
   bool on() const { return power_ == Power::On; }
@@ -74,11 +88,14 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   bool operational() const { return nmt_.operational(); }
   bool has_errors() const { return errors_.any(); }
 
+  MotionClock& clock() { return clock_; }
   /// Now on the node's own clock, in samples since it booted.
-  double own_time() const;
+  double own_time() const { return clock_.samples_at(now_); }
 
   /// Error reset: the EMCY message says so.
   void reset_errors();
+  /// PDO parameters have been changed by other ways than writing them.
+  void configure_pdos() { pdo_.configure(); }
 
  private:
   enum class Power { Off, Booting, On };
@@ -92,14 +109,15 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   void power_up(HostTime now);
   void finish_boot(HostTime now);
   void update_connection(HostTime now);
-  void schedule_sample();
   void run_sample();
   void watch_connections();
   std::int64_t milliseconds() const;
   bool transmit(const canopen::Frame& frame);
   void send_state(std::uint8_t state);
   void send_emergency_bytes(const EmergencyBytes& bytes);
+  void on_sync(HostTime time);
   void on_nmt(const canopen::Frame& frame);
+  void enter_operational();
   void on_sdo(const canopen::Frame& frame);
   void on_error_control(const canopen::Frame& frame);
   void respond(const SdoServer::Bytes& bytes);
@@ -116,7 +134,7 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   void pdo_too_short() override;
   bool pdo_send(const canopen::Frame& frame) override;
   AbortCode write(ObjectDictionary::Slot slot, std::size_t size, std::uint64_t raw);
-  void communication_written(const ObjectEntry& entry, std::int64_t value);
+  bool communication_written(const ObjectEntry& entry, std::int64_t value);
   void restore_communication();
   void apply_communication();
   void publish_errors();
@@ -132,12 +150,7 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   Power power_ = Power::Off;
   HostTime power_event_;
   bool silent_ = false;
-  double period_ns_;
-  HostTime epoch_;
-  std::int64_t samples_since_epoch_ = 0;
-  std::int64_t samples_ = 0;
-  HostTime last_sample_;
-  HostTime next_sample_;
+  MotionClock clock_;
 
   SdoServer sdo_;
   NmtSlave nmt_;

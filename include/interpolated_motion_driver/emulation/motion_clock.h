@@ -3,26 +3,38 @@
 #include <cstdint>
 
 #include "interpolated_motion_driver/emulation/crystal.h"
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::emulation {
 
-/// The clock that makes a drive's 1 ms samples, and its discipline by the master ("EPOS2 Interpolated
+struct MotionClockSettings {
+  double error_ppm = 0.0;                                     ///< of the crystal, > 0: fast
+  HostDuration sample_period = std::chrono::milliseconds(1);  ///< nominal
+  bool discipline = false;                                    ///< the clock follows SYNC and time stamps
+  HostDuration slew =
+      std::chrono::microseconds(1);  ///< most by which a sample is made shorter or longer for that
+};
+
+/// The clock that makes a drive's samples, and its discipline by the master ("EPOS2 Interpolated
 /// Position Mode", 2008: SYNC and High Resolution Time Stamp): the drive latches the clock at SYNC, the
 /// master sends the time of that SYNC in 0x1013, and the drive corrects its clock by the difference.
 ///
 /// How is not documented. Here the first time stamp sets the reference, so that only what both clocks do from
-/// then on counts; a difference is made up at the samples, each shorter or longer by at most `clock_slew`; a
+/// then on counts; a difference is made up at the samples, each shorter or longer by at most `slew`; a
 /// latched value serves for one time stamp, so a time stamp whose SYNC did not arrive is ignored.
 class MotionClock {
  public:
-  MotionClock(const EposParameters& parameters, HostTime now);
+  MotionClock(const MotionClockSettings& settings, HostTime now);
 
   /// Power-up: the first sample comes at `first`.
   void restart(HostTime first);
   /// The crystal's error from the next sample on, ppm.
   void set_error(double ppm) { crystal_.set_error(ppm, next_sample_); }
+
+  /// Samples taken since power-up.
+  std::int64_t samples() const { return samples_; }
+  /// The same between samples: at each sample the number of it, the first being 1.
+  double samples_at(HostTime when) const;
 
   /// When the next sample is due.
   HostTime next_sample() const { return next_sample_; }
@@ -40,7 +52,8 @@ class MotionClock {
   std::uint32_t latched_microseconds() const;
   void schedule();
 
-  const EposParameters& parameters_;
+  const MotionClockSettings settings_;
+  const double period_;  // ns
   Crystal crystal_;
   HostTime next_sample_;
   std::int64_t samples_ = 0;  ///< taken since power-up
