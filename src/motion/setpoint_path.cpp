@@ -17,8 +17,15 @@ constexpr double kPause = 0.25;  // s
 
 Refusal refuse(std::string text) { return {GoalError::InvalidGoal, std::move(text)}; }
 
-bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+/// `values` of the joints of the setpoint: positions or velocities, as `what` says.
+std::optional<Refusal> check_finite(const Setpoint& setpoint, const char* what,
+                                    const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    return refuse(fmt::format("The {} of joint \"{}\" in the setpoint is {}, allowed are finite numbers.",
+                              what, setpoint.joint_names[i], values[i]));
+  }
+  return std::nullopt;
 }
 
 std::size_t column_of(const Setpoint& setpoint, const std::string& joint) {
@@ -113,8 +120,8 @@ std::optional<Refusal> SetpointPath::check_joints(const Setpoint& setpoint) cons
     return refuse(fmt::format("The setpoint has {} positions and {} velocities for {} joints.",
                               setpoint.positions.size(), setpoint.velocities.size(), joints));
   }
-  if (all_finite(setpoint.positions) && all_finite(setpoint.velocities)) return std::nullopt;
-  return refuse("The setpoint has a position or velocity that is no finite number.");
+  if (auto refusal = check_finite(setpoint, "position", setpoint.positions)) return refusal;
+  return check_finite(setpoint, "velocity", setpoint.velocities);
 }
 
 std::optional<Refusal> SetpointPath::check_time(const Setpoint& setpoint, HostTime now) const {

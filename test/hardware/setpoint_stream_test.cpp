@@ -153,10 +153,10 @@ TEST_F(BadSetpoint, IsRefusedAndTheStreamGoesOn) {
   expect_refused(s, "too far ahead");
   s = good();
   s.positions[4] = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(s, "finite");
+  expect_refused(s, "position of joint \"joint5\" in the setpoint is nan");
   s = good();
   s.velocities.assign(6, std::numeric_limits<double>::infinity());
-  expect_refused(s, "finite");
+  expect_refused(s, "velocity of joint \"joint1\" in the setpoint is inf");
   s = good();
   s.positions.pop_back();
   expect_refused(s, "5 positions");
