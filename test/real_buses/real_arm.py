@@ -62,8 +62,11 @@ class RealArm(AnyDrives):
         machine."""
         configuration['bring_up_timeout'] = 60.0
         for name in buses_outside(configuration):
-            if configuration['buses'][name]['transport'] == 'serial':
-                configuration['buses'][name].update(device=os.path.join(cls.folder, name), reply_timeout=0.5)
+            bus = configuration['buses'][name]
+            if bus['transport'] == 'serial':
+                bus.update(device=os.path.join(cls.folder, name), reply_timeout=0.5)
+            else:
+                bus.update(heartbeat_timeout=2.0, sdo_timeout=1.0)
         return configuration
 
     @classmethod
