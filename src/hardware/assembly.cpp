@@ -18,25 +18,35 @@ namespace interpolated_motion::hardware {
 
 namespace {
 
-axis::EposAxisParameters epos_parameters(const Configuration& configuration, const DriveConfiguration& drive,
-                                         const BusConfiguration& bus, double record_bus_time) {
-  axis::EposAxisParameters parameters;
+void set_parameters(axis::AxisParameters& parameters, const Configuration& configuration,
+                    const DriveConfiguration& drive) {
   parameters.joint = drive.joint;
   parameters.transmission = drive.transmission;
   parameters.limits = drive.limits;
-  parameters.deviation_bound = drive.deviation_bound;
-  parameters.stream_deviation_bound = drive.stream_deviation_bound;
-  parameters.limit_margin = drive.limit_margin;
   parameters.max_following_error = drive.max_following_error;
-  parameters.commit_horizon = configuration.commit_horizon;
-  parameters.stream_horizon = configuration.setpoints.horizon.count();
+  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
+}
+
+void set_bus_parameters(axis::Cia402AxisParameters& parameters, const BusConfiguration& bus,
+                        double record_bus_time) {
   parameters.record_bus_time = record_bus_time;
   parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
-  parameters.clock_discipline = bus.clock_discipline;
   parameters.heartbeat_period = host_duration(bus.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
   parameters.feedback_timeout = host_duration(bus.feedback_timeout);
-  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
+}
+
+axis::EposAxisParameters epos_parameters(const Configuration& configuration, const DriveConfiguration& drive,
+                                         const BusConfiguration& bus, double record_bus_time) {
+  axis::EposAxisParameters parameters;
+  set_parameters(parameters, configuration, drive);
+  set_bus_parameters(parameters, bus, record_bus_time);
+  parameters.deviation_bound = drive.deviation_bound;
+  parameters.stream_deviation_bound = drive.stream_deviation_bound;
+  parameters.limit_margin = drive.limit_margin;
+  parameters.commit_horizon = configuration.commit_horizon;
+  parameters.stream_horizon = configuration.setpoints.horizon.count();
+  parameters.clock_discipline = bus.clock_discipline;
   return parameters;
 }
 
@@ -44,13 +54,10 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
                                                      const DriveConfiguration& drive,
                                                      const BusConfiguration& bus, double start_lead) {
   axis::SilverlodeAxisParameters parameters;
-  parameters.joint = drive.joint;
-  parameters.transmission = drive.transmission;
-  parameters.limits = drive.limits;
+  set_parameters(parameters, configuration, drive);
   parameters.deviation_bound = drive.deviation_bound;
   parameters.stream_deviation_bound = drive.stream_deviation_bound;
   parameters.limit_margin = drive.limit_margin;
-  parameters.max_following_error = drive.max_following_error;
   parameters.commit_horizon = configuration.commit_horizon;
   parameters.stream_horizon = configuration.setpoints.horizon.count();
   parameters.line_share = bus.max_load;
@@ -62,7 +69,6 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
   parameters.queue = drive.silverlode.queue;
   parameters.queue_depth = drive.silverlode.queue_depth;
   parameters.segment_registers = drive.silverlode.segment_registers;
-  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }
 
@@ -70,22 +76,14 @@ axis::CyclicAxisParameters cyclic_parameters(const Configuration& configuration,
                                              const DriveConfiguration& drive, const BusConfiguration& bus,
                                              double record_bus_time) {
   axis::CyclicAxisParameters parameters;
-  parameters.joint = drive.joint;
-  parameters.transmission = drive.transmission;
-  parameters.limits = drive.limits;
+  set_parameters(parameters, configuration, drive);
+  set_bus_parameters(parameters, bus, record_bus_time);
   parameters.deviation_bound = drive.deviation_bound;
-  parameters.max_following_error = drive.max_following_error;
-  parameters.record_bus_time = record_bus_time;
   parameters.sync_period = host_duration(bus.sync_period);
   parameters.interpolation_order = drive.cyclic.interpolation_order;
   parameters.servo_period = drive.cyclic.servo_period;
   parameters.velocity_unit = drive.cyclic.velocity_unit;
   parameters.acceleration_unit = drive.cyclic.acceleration_unit;
-  parameters.host_node_id = static_cast<std::uint8_t>(bus.host_node_id);
-  parameters.heartbeat_period = host_duration(bus.heartbeat_period);
-  parameters.heartbeat_timeout = host_duration(bus.heartbeat_timeout);
-  parameters.feedback_timeout = host_duration(bus.feedback_timeout);
-  parameters.bring_up_timeout = host_duration(configuration.bring_up_timeout);
   return parameters;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// Settings of one drive that do not depend on its kind.
+struct AxisParameters {
+  std::string joint;
+  encoding::Transmission transmission;
+  trajectory::JointLimits limits;    ///< velocity and acceleration must be finite
+  double max_following_error = 0.1;  ///< rad, beyond it the drive faults (0x6065, ERL)
+  HostDuration bring_up_timeout = std::chrono::seconds(5);
+};
+
+}  // namespace interpolated_motion::axis
