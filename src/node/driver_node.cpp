@@ -50,12 +50,18 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
   if (configuration.node.allow_fault_injection) {
     faults_ = std::make_unique<FaultInjection>(private_node(command_queue_), *hardware_);
   }
+  if (configuration.node.publish_tf) {
+    link_frames_ = std::make_unique<LinkFramePublisher>(
+        LinkFrames(configuration.robot_description, configuration.driver.joints),
+        configuration.node.tf_demand_prefix, *hardware_);
+  }
   call_periodically(configuration.node);
 }
 
 void DriverNode::call_periodically(const NodeParameters& parameters) {
   commanding_.add(parameters.action_monitor_rate, [this] { action_.publish_feedback(); });
   publishing_.add(parameters.state_publish_rate, [this] { states_.publish(); });
+  if (link_frames_) publishing_.add(parameters.state_publish_rate, [this] { link_frames_->publish(); });
   publishing_.add(parameters.status_publish_rate, [this] { status_.publish(); });
   publishing_.add(kDiagnosticsRate, [this] { diagnostics_.publish(); });
 }

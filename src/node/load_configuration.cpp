@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <ros/console.h>
 
-#include "interpolated_motion_driver/node/robot_description.h"
 #include "interpolated_motion_driver/node/xmlrpc_to_yaml.h"
 
 namespace interpolated_motion::node {
@@ -58,9 +57,8 @@ LoadedConfiguration load_configuration(const ros::NodeHandle& private_node) {
   mention_ignored(parameters);
   LoadedConfiguration loaded;
   loaded.node = parse_node_parameters(parameters);
-  const RobotDescription description =
-      find_robot_description(private_node, loaded.node.robot_description_file);
-  const auto limits = joint_limits(description, joint_names(parameters));
+  loaded.robot_description = find_robot_description(private_node, loaded.node.robot_description_file);
+  const auto limits = joint_limits(loaded.robot_description, joint_names(parameters));
   loaded.driver = hardware::parse_configuration(parameters, limits, node_parameter_keys());
   return loaded;
 }

@@ -57,6 +57,13 @@ std::string text(const YAML::Node& parameters, const std::string& key) {
   return scalar(parameters, key, std::string(), "a text");
 }
 
+std::string frame_prefix(const YAML::Node& parameters, const std::string& key, const std::string& fallback) {
+  const std::string allowed = "a text that does not begin with a slash, or empty for no such frames";
+  auto prefix = scalar(parameters, key, fallback, allowed);
+  if (!prefix.empty() && prefix.front() == '/') refuse(key, parameters[key], allowed);
+  return prefix;
+}
+
 int priority(const YAML::Node& parameters, const std::string& key) {
   const std::string allowed = "a whole number from 0 (off) to 99";
   const int value = scalar(parameters, key, 0, allowed);
@@ -79,10 +86,8 @@ NodeParameters parse_node_parameters(const YAML::Node& parameters) {
   node.wire_log = text(parameters, "wire_log");
   node.robot_description_file = text(parameters, "robot_description_file");
   node.emulated_samples = text(parameters, "emulated_samples");
-  if (flag(parameters, "publish_tf", false)) {
-    refuse("publish_tf", parameters["publish_tf"],
-           "false: robot_state_publisher makes link frames of /joint_states");
-  }
+  node.publish_tf = flag(parameters, "publish_tf", node.publish_tf);
+  node.tf_demand_prefix = frame_prefix(parameters, "tf_demand_prefix", node.tf_demand_prefix);
   node.allow_fault_injection = flag(parameters, "allow_fault_injection", node.allow_fault_injection);
   node.allow_parameter_writes = flag(parameters, "allow_parameter_writes", node.allow_parameter_writes);
   return node;
@@ -92,8 +97,8 @@ const std::vector<std::string>& node_parameter_keys() {
   static const std::vector<std::string> keys = [] {
     std::vector<std::string> all{"state_publish_rate", "action_monitor_rate", "status_publish_rate",
                                  "loop_period", "realtime_priority", "wire_log", "publish_tf",
-                                 "robot_description_file", "robot_description", "emulated_samples",
-                                 "allow_fault_injection", "allow_parameter_writes",
+                                 "tf_demand_prefix", "robot_description_file", "robot_description",
+                                 "emulated_samples", "allow_fault_injection", "allow_parameter_writes",
                                  // read by diagnostic_updater and by actionlib
                                  "diagnostic_period", "follow_joint_trajectory"};
     all.insert(all.end(), controller_keys().begin(), controller_keys().end());

@@ -12,15 +12,6 @@
 namespace interpolated_motion::node {
 namespace {
 
-urdf::ModelInterfaceSharedPtr parse(const RobotDescription& description) {
-  urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(description.urdf);
-  if (!model) {
-    throw std::invalid_argument(fmt::format(
-        "{} is no valid URDF; the parser's message on the console says where.", description.source));
-  }
-  return model;
-}
-
 /// Only joints with one axis of their own can be driven.
 void refuse_undrivable(const urdf::Joint& joint, const std::string& source) {
   if (joint.mimic) {
@@ -74,9 +65,18 @@ std::string resolve(const std::string& path) {
 
 }  // namespace
 
+urdf::ModelInterfaceSharedPtr parse_urdf(const RobotDescription& description) {
+  urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(description.urdf);
+  if (!model) {
+    throw std::invalid_argument(fmt::format(
+        "{} is no valid URDF; the parser's message on the console says where.", description.source));
+  }
+  return model;
+}
+
 std::map<std::string, trajectory::JointLimits> joint_limits(const RobotDescription& description,
                                                             const std::vector<std::string>& joints) {
-  const auto model = parse(description);
+  const auto model = parse_urdf(description);
   std::map<std::string, trajectory::JointLimits> limits;
   for (const std::string& name : joints) {
     const auto joint = model->getJoint(name);

@@ -47,7 +47,8 @@ TEST(NodeParameters, NamesParameterValueAndRange) {
   expect_refused("{realtime_priority: 100}", {"realtime_priority", "100", "0", "99"});
   expect_refused("{realtime_priority: 1.5}", {"realtime_priority", "1.5"});
   expect_refused("{allow_fault_injection: perhaps}", {"allow_fault_injection", "perhaps", "true or false"});
-  expect_refused("{publish_tf: true}", {"publish_tf", "robot_state_publisher"});
+  expect_refused("{publish_tf: perhaps}", {"publish_tf", "perhaps", "true or false"});
+  expect_refused("{tf_demand_prefix: /demand}", {"tf_demand_prefix", "/demand", "slash"});
   expect_refused("{wire_log: {a: b}}", {"wire_log", "a text"});
 }
 

@@ -17,6 +17,7 @@
 #include "interpolated_motion_driver/node/diagnostics.h"
 #include "interpolated_motion_driver/node/fault_injection.h"
 #include "interpolated_motion_driver/node/hardware_thread.h"
+#include "interpolated_motion_driver/node/link_frame_publisher.h"
 #include "interpolated_motion_driver/node/load_configuration.h"
 #include "interpolated_motion_driver/node/periodic_calls.h"
 #include "interpolated_motion_driver/node/query_services.h"
@@ -71,6 +72,7 @@ class DriverNode {
   std::unique_ptr<FaultInjection> faults_;
   StatePublisher states_;
   StatusPublisher status_;
+  std::unique_ptr<LinkFramePublisher> link_frames_;
   Diagnostics diagnostics_;
 
   BringUp bring_up_;

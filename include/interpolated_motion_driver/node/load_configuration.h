@@ -4,6 +4,7 @@
 
 #include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/node/node_parameters.h"
+#include "interpolated_motion_driver/node/robot_description.h"
 
 namespace interpolated_motion::node {
 
@@ -11,6 +12,7 @@ namespace interpolated_motion::node {
 struct LoadedConfiguration {
   NodeParameters node;
   hardware::Configuration driver;
+  RobotDescription robot_description;
 };
 
 /// Reads the private parameters of the node (`private_node`) and the robot description: the parameter

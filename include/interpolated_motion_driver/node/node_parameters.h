@@ -19,8 +19,10 @@ struct NodeParameters {
   std::string
       robot_description_file;    ///< URDF file, used when no robot_description is on the parameter server
   std::string emulated_samples;  ///< folder of `emulated_drives --samples`; empty: none
-  bool allow_fault_injection = false;   ///< offer ~inject_fault for emulated drives
-  bool allow_parameter_writes = false;  ///< permit writing objects or registers of the drives
+  bool publish_tf = false;       ///< link frames on /tf
+  std::string tf_demand_prefix = "demand/";  ///< of the trajectory's link frames; empty: none
+  bool allow_fault_injection = false;        ///< offer ~inject_fault for emulated drives
+  bool allow_parameter_writes = false;       ///< permit writing objects or registers of the drives
 };
 
 /// Reads the node's keys out of its private parameters. Throws std::invalid_argument that names parameter,

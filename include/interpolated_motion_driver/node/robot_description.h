@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <urdf_world/types.h>
+
 #include "interpolated_motion_driver/trajectory/goal.h"
 
 namespace interpolated_motion::node {
@@ -13,6 +15,9 @@ struct RobotDescription {
   std::string urdf;    ///< the XML text
   std::string source;  ///< e.g. "parameter /robot_description"
 };
+
+/// Throws std::invalid_argument with the source when the text is no URDF.
+urdf::ModelInterfaceSharedPtr parse_urdf(const RobotDescription& description);
 
 /// Position and velocity limits of `joints` as the URDF has them, and whether they are continuous; a URDF has
 /// no acceleration limits. Throws std::invalid_argument with joint and source when the text is no URDF, a
