@@ -36,16 +36,23 @@ void set_bus_parameters(axis::Cia402AxisParameters& parameters, const BusConfigu
   parameters.feedback_timeout = host_duration(bus.feedback_timeout);
 }
 
-axis::EposAxisParameters epos_parameters(const Configuration& configuration, const DriveConfiguration& drive,
-                                         const BusConfiguration& bus, double record_bus_time) {
-  axis::EposAxisParameters parameters;
-  set_parameters(parameters, configuration, drive);
-  set_bus_parameters(parameters, bus, record_bus_time);
+/// Of an axis that encodes records and keeps them in its drive.
+template <class Parameters>
+void set_record_parameters(Parameters& parameters, const Configuration& configuration,
+                           const DriveConfiguration& drive) {
   parameters.deviation_bound = drive.deviation_bound;
   parameters.stream_deviation_bound = drive.stream_deviation_bound;
   parameters.limit_margin = drive.limit_margin;
   parameters.commit_horizon = configuration.commit_horizon;
   parameters.stream_horizon = configuration.setpoints.horizon.count();
+}
+
+axis::EposAxisParameters epos_parameters(const Configuration& configuration, const DriveConfiguration& drive,
+                                         const BusConfiguration& bus, double record_bus_time) {
+  axis::EposAxisParameters parameters;
+  set_parameters(parameters, configuration, drive);
+  set_bus_parameters(parameters, bus, record_bus_time);
+  set_record_parameters(parameters, configuration, drive);
   parameters.clock_discipline = bus.clock_discipline;
   return parameters;
 }
@@ -55,11 +62,7 @@ axis::SilverlodeAxisParameters silverlode_parameters(const Configuration& config
                                                      const BusConfiguration& bus, double start_lead) {
   axis::SilverlodeAxisParameters parameters;
   set_parameters(parameters, configuration, drive);
-  parameters.deviation_bound = drive.deviation_bound;
-  parameters.stream_deviation_bound = drive.stream_deviation_bound;
-  parameters.limit_margin = drive.limit_margin;
-  parameters.commit_horizon = configuration.commit_horizon;
-  parameters.stream_horizon = configuration.setpoints.horizon.count();
+  set_record_parameters(parameters, configuration, drive);
   parameters.line_share = bus.max_load;
   parameters.start_lead = start_lead;
   parameters.status_period = host_duration(bus.serial.status_period);
