@@ -62,25 +62,13 @@ void CyclicDrive::Implementation::booted() {
 
 void CyclicDrive::Implementation::powered_off() { plant_.stand(); }
 
-void CyclicDrive::Implementation::connection_lost() {
-  switch (object(0x6007, 0)) {
-    case 1:
-      return device_.fault(option_codes());
-    case 2:
-      return device_.disable_voltage();
-    case 3:
-      if (device_.operation_enabled()) device_.quick_stop();
-      return;
-    default:
-      return;
-  }
-}
+void CyclicDrive::Implementation::connection_lost() { device_.connection_lost(option_codes(objects_)); }
 
 void CyclicDrive::Implementation::fault(std::uint16_t code, std::uint8_t error_register, HostTime now) {
   if (!on()) return;
   emergency(code, error_register, now);
   error_code_ = code;
-  device_.fault(option_codes());
+  device_.fault(option_codes(objects_));
   publish_status();
 }
 
@@ -109,16 +97,12 @@ void CyclicDrive::Implementation::written(const ObjectEntry& entry, std::int64_t
 }
 
 void CyclicDrive::Implementation::controlword(std::uint16_t word) {
-  const bool was_in_control = in_control();
-  if (device_.command(word, option_codes())) {
+  const bool was_in_control = device_.in_control();
+  if (device_.command(word, option_codes(objects_))) {
     error_code_ = 0;
     reset_errors();
   }
-  if (in_control() && !was_in_control) enter_mode();
-}
-
-bool CyclicDrive::Implementation::in_control() const {
-  return device_.operation_enabled() && device_.ramp() == StopRamp::None;
+  if (device_.in_control() && !was_in_control) enter_mode();
 }
 
 void CyclicDrive::Implementation::enter_mode() {
@@ -132,25 +116,17 @@ void CyclicDrive::Implementation::configure_interpolation() {
 }
 
 void CyclicDrive::Implementation::target_position(std::int32_t position) {
-  if (!in_control() || object(0x6061, 0) != kCyclicSynchronousPosition) return;
+  if (!device_.in_control() || object(0x6061, 0) != kCyclicSynchronousPosition) return;
   // Where the axis stands by now: it may have been braking when the mode was entered.
   if (!interpolation_.following()) interpolation_.enter(demand_.position);
   interpolation_.update(position, own_ms());
   ++updates_;
 }
 
-OptionCodes CyclicDrive::Implementation::option_codes() const {
-  OptionCodes options;
-  options.shutdown = static_cast<std::int16_t>(object(0x605B, 0));
-  options.disable_operation = static_cast<std::int16_t>(object(0x605C, 0));
-  options.fault_reaction = static_cast<std::int16_t>(object(0x605E, 0));
-  return options;
-}
-
 std::uint16_t CyclicDrive::Implementation::statusword() const {
   unsigned word = device_.status_bits();
   if (operational()) word |= kRemote;
-  if (in_control() && interpolation_.following()) word |= kFollowsCommand;
+  if (device_.in_control() && interpolation_.following()) word |= kFollowsCommand;
   if (following_error_) word |= kFollowingError;
   return static_cast<std::uint16_t>(word);
 }

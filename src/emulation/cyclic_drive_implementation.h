@@ -37,8 +37,6 @@ class CyclicDrive::Implementation : public CanopenNode {
   void target_position(std::int32_t position);
   void configure_interpolation();
   void enter_mode();
-  bool in_control() const;
-  OptionCodes option_codes() const;
   std::uint16_t statusword() const;
 
   void move();

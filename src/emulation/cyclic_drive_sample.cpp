@@ -97,13 +97,13 @@ void CyclicDrive::Implementation::publish_motion() {
 }
 
 std::uint32_t CyclicDrive::Implementation::missed_now() const {
-  return in_control() ? interpolation_.missed_now(own_ms()) : 0U;
+  return device_.in_control() ? interpolation_.missed_now(own_ms()) : 0U;
 }
 
 void CyclicDrive::Implementation::observe() const {
   CyclicSample sample;
   sample.time = now();
-  sample.following = in_control() && interpolation_.following();
+  sample.following = device_.in_control() && interpolation_.following();
   sample.missed = missed_now();
   sample.demand = demand_.position;
   sample.velocity = demand_.velocity * kMillisecondsPerSecond;

@@ -12,6 +12,16 @@ constexpr unsigned kFaultReset = 1U << 7;
 
 }  // namespace
 
+OptionCodes option_codes(const ObjectDictionary& objects) {
+  const auto value = [&objects](std::uint16_t index) { return objects.get(objects.find(index, 0)); };
+  OptionCodes options;
+  options.abort_connection = static_cast<std::int16_t>(value(0x6007));
+  options.shutdown = static_cast<std::int16_t>(value(0x605B));
+  options.disable_operation = static_cast<std::int16_t>(value(0x605C));
+  options.fault_reaction = static_cast<std::int16_t>(value(0x605E));
+  return options;
+}
+
 bool DeviceControl::power_stage() const {
   return state_ == DeviceState::OperationEnabled || state_ == DeviceState::QuickStopActive ||
          state_ == DeviceState::FaultReaction;
@@ -106,6 +116,20 @@ void DeviceControl::at_rest() {
   if (ramp_ == StopRamp::None) return;
   ramp_ = StopRamp::None;
   state_ = after_ramp_;
+}
+
+void DeviceControl::connection_lost(const OptionCodes& options) {
+  switch (options.abort_connection) {
+    case 1:
+      return fault(options);
+    case 2:
+      return disable_voltage();
+    case 3:
+      if (operation_enabled()) quick_stop();
+      return;
+    default:
+      return;
+  }
 }
 
 void DeviceControl::fault(const OptionCodes& options) {

@@ -74,19 +74,9 @@ void EposDrive::Implementation::powered_off() {
 
 void EposDrive::Implementation::connection_lost() {
   connection_error_ = true;
-  const std::int64_t option = objects_.get(kObject<0x6007, 0>);
-  if (option >= 1 && option <= 3) stop_interpolation();
-  switch (option) {
-    case 1:
-      return device_.fault(option_codes());
-    case 2:
-      return device_.disable_voltage();
-    case 3:
-      if (device_.operation_enabled()) device_.quick_stop();
-      return;
-    default:
-      return;
-  }
+  const OptionCodes options = option_codes(objects_);
+  if (options.abort_connection >= 1 && options.abort_connection <= 3) stop_interpolation();
+  device_.connection_lost(options);
 }
 
 void EposDrive::Implementation::heartbeat_heard() {
@@ -100,7 +90,7 @@ void EposDrive::Implementation::fault(std::uint16_t code, std::uint8_t error_reg
   if (!on()) return;
   emergency(code, error_register, now);
   stop_interpolation();
-  device_.fault(option_codes());
+  device_.fault(option_codes(objects_));
   publish_status();
 }
 
@@ -108,17 +98,13 @@ void EposDrive::Implementation::controlword(std::uint16_t word) {
   const bool was_enabled = ip_bit_;
   ip_bit_ = (word & kEnableIpMode) != 0;
   halt_ = (word & kHalt) != 0;
-  if (device_.command(word, option_codes())) {
+  if (device_.command(word, option_codes(objects_))) {
     connection_error_ = false;
     ip_.on_fault_reset();
     reset_errors();
   }
-  if (!in_control()) return stop_interpolation();
+  if (!device_.in_control()) return stop_interpolation();
   if (mode() == kInterpolatedPositionMode) command_interpolation(ip_bit_, was_enabled);
-}
-
-bool EposDrive::Implementation::in_control() const {
-  return device_.operation_enabled() && device_.ramp() == StopRamp::None;
 }
 
 void EposDrive::Implementation::command_interpolation(bool enabled, bool was_enabled) {
@@ -131,7 +117,7 @@ void EposDrive::Implementation::stop_interpolation() {
   start_requested_ = false;
   halted_ = false;
   ip_.stop();
-  if (was_active && in_control() && parameters_.active_stop == ActiveStop::AtOnce) stop_at_once();
+  if (was_active && device_.in_control() && parameters_.active_stop == ActiveStop::AtOnce) stop_at_once();
 }
 
 void EposDrive::Implementation::select_mode(int selected) {
@@ -143,14 +129,6 @@ void EposDrive::Implementation::select_mode(int selected) {
 }
 
 int EposDrive::Implementation::mode() const { return static_cast<int>(objects_.get(kObject<0x6061, 0>)); }
-
-OptionCodes EposDrive::Implementation::option_codes() const {
-  OptionCodes options;
-  options.shutdown = static_cast<std::int16_t>(objects_.get(kObject<0x605B, 0>));
-  options.disable_operation = static_cast<std::int16_t>(objects_.get(kObject<0x605C, 0>));
-  options.fault_reaction = static_cast<std::int16_t>(objects_.get(kObject<0x605E, 0>));
-  return options;
-}
 
 std::uint16_t EposDrive::Implementation::statusword() const {
   unsigned word = device_.status_bits();

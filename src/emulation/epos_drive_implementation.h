@@ -39,8 +39,6 @@ class EposDrive::Implementation : public CanopenNode {
   void command_interpolation(bool enabled, bool was_enabled);
   void stop_interpolation();
   std::uint16_t statusword() const;
-  OptionCodes option_codes() const;
-  bool in_control() const;
   int mode() const;
 
   // epos_drive_objects.cpp

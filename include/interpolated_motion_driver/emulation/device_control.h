@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "interpolated_motion_driver/emulation/object_dictionary.h"
+
 namespace interpolated_motion::emulation {
 
 /// States of the device control state machine of CiA 402.
@@ -20,10 +22,14 @@ enum class StopRamp { None, Profile, QuickStop };
 
 /// Option codes the state machine reacts by.
 struct OptionCodes {
+  std::int16_t abort_connection = 1;   ///< 0x6007: 1 fault, 2 disable voltage, 3 quick stop, else nothing
   std::int16_t shutdown = 0;           ///< 0x605B: 0 at once, 1 slow down
   std::int16_t disable_operation = 1;  ///< 0x605C: 0 at once, 1 slow down
   std::int16_t fault_reaction = 2;     ///< 0x605E: 0 at once, 1 profile ramp, 2 quick-stop ramp
 };
+
+/// As they are in the objects of a drive.
+OptionCodes option_codes(const ObjectDictionary& objects);
 
 /// Device control of CiA 402 as EPOS2 has it: Switch on and Enable operation may come in one controlword,
 /// Quick stop active can be left to Operation enable, and the statusword's bit 4 tells of the power stage.
@@ -32,6 +38,8 @@ class DeviceControl {
   DeviceState state() const { return state_; }
   bool power_stage() const;
   bool operation_enabled() const { return state_ == DeviceState::OperationEnabled; }
+  /// The axis does what the mode of operation says: enabled, and on no ramp.
+  bool in_control() const { return operation_enabled() && ramp_ == StopRamp::None; }
 
   /// Ramp under way; when it has come to its end, at_rest() is to be called.
   StopRamp ramp() const { return ramp_; }
@@ -41,6 +49,8 @@ class DeviceControl {
   bool command(std::uint16_t controlword, const OptionCodes& options);
 
   void fault(const OptionCodes& options);
+  /// The host has been lost.
+  void connection_lost(const OptionCodes& options);
   void quick_stop();
   void disable_voltage();
   void reset() { *this = DeviceControl(); }
