@@ -70,13 +70,9 @@ void Cia402Axis::note_stall(HostTime now) {
   const HostDuration away = now - polled_;
   if (away > kHostStall) {
     if (polled_ >= since_) away_ += away;
-    present_since_ = now;
+    absent_ += away;
   }
   polled_ = now;
-}
-
-HostDuration Cia402Axis::silence(HostTime now, HostTime last) const {
-  return now - std::max(last, present_since_);
 }
 
 void Cia402Axis::begin_phase(HostTime now) {

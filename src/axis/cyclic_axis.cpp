@@ -140,6 +140,7 @@ void CyclicAxis::poll_following(HostTime now) {
 
 void CyclicAxis::on_tpdo(int number, const canopen::Frame& frame, HostTime time) {
   if (!telemetry_.take(number, frame, time, master().last_sync_time())) return;
+  note_report();
   const auto& transmission = parameters_.transmission;
   feedback_.time = telemetry_.position_time;
   feedback_.position = transmission.joint_position(telemetry_.position);

@@ -134,6 +134,7 @@ void EposAxis::on_tpdo(int number, const canopen::Frame& frame, HostTime time) {
   if (!telemetry_.take(number, frame, time, master().last_sync_time())) return;
   note_buffer_errors(before);
   if (number != epos_pdo::kMotionTpdo) return;
+  note_report();
   feedback_.time = telemetry_.motion_time;
   feedback_.position = parameters_.transmission.joint_position(telemetry_.position);
   feedback_.velocity = parameters_.transmission.joint_velocity(counts_per_second(telemetry_.velocity));

@@ -7,12 +7,6 @@ namespace {
 using axis::AxisState;
 using std::chrono::milliseconds;
 
-emulation::CyclicParameters drive_parameters() {
-  emulation::CyclicParameters p;
-  p.node_id = 1;
-  return p;
-}
-
 class CyclicHostStall : public HostStall {
  protected:
   CyclicHostStall() : HostStall(bus_configuration(true)) {}
@@ -37,7 +31,7 @@ class CyclicHostStall : public HostStall {
     if (begin_ != kNever && sample.following) compare(sample.demand, seconds(sample.time - begin_));
   }
 
-  emulation::CyclicDrive& drive_ = world_.add_cyclic(bus_, drive_parameters());
+  emulation::CyclicDrive& drive_ = world_.add_cyclic(bus_, drive_parameters<emulation::CyclicParameters>());
   axis::CyclicAxis axis{axis_parameters<axis::CyclicAxisParameters>(), link.master(),
                         link.master().add_node(1)};
   HostTime begin_ = kNever;

@@ -38,6 +38,13 @@ class HostStall : public testing::Test {
   }
 
   template <class Parameters>
+  static Parameters drive_parameters() {
+    Parameters p;
+    p.node_id = 1;
+    return p;
+  }
+
+  template <class Parameters>
   static Parameters axis_parameters() {
     Parameters p;
     p.joint = "elbow";

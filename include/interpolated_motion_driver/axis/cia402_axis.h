@@ -85,8 +85,12 @@ class Cia402Axis : public Axis {
   /// `limit` is over since the stage or phase began. It is for the drive: what the host was away for does not
   /// count.
   bool expired(HostTime now, HostDuration limit) const { return now - since_ - away_ > limit; }
-  /// How long nothing has come from the drive since `last`, as far as the host was there to hear it.
-  HostDuration silence(HostTime now, HostTime last) const;
+  /// A position has come from the drive.
+  void note_report() { absent_at_report_ = absent_; }
+  /// How long no position has come, the last one of `last`, as far as the host was there to hear it.
+  HostDuration silence(HostTime now, HostTime last) const {
+    return now - last - (absent_ - absent_at_report_);
+  }
   /// True when the steps are done; a failure is a fault.
   bool sequence_done(HostTime now);
   void fail(const std::string& reason, HostTime now);
@@ -144,7 +148,8 @@ class Cia402Axis : public Axis {
   HostTime since_{};     ///< begin of the stage, or of the phase of an enabled drive
   HostDuration away_{};  ///< of the host, since then
   HostTime polled_{};
-  HostTime present_since_{};  ///< end of the host's last absence
+  HostDuration absent_{};            ///< of the host, in all
+  HostDuration absent_at_report_{};  ///< the same when the last position came
   HostTime bring_up_since_{};
   bool configured_ = false;
   std::string fault_text_;
