@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "../test/encoding/goal_paths.h"
-#include "interpolated_motion_driver/encoding/ims_encoder.h"
-#include "interpolated_motion_driver/encoding/pvt_encoder.h"
+#include "interpolated_motion_driver/encoding/ims/ims_encoder.h"
+#include "interpolated_motion_driver/encoding/pvt/pvt_encoder.h"
 
 namespace interpolated_motion::encoding {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
-#include "interpolated_motion_driver/emulation/silverdust_parameters.h"
+#include "interpolated_motion_driver/emulation/epos/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
 #include "interpolated_motion_driver/transport/virtual_serial_line.h"
 #include "options.h"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/axis/cyclic_axis.h"
-#include "interpolated_motion_driver/axis/epos_axis.h"
-#include "interpolated_motion_driver/axis/queue_delivery.h"
-#include "interpolated_motion_driver/axis/register_delivery.h"
-#include "interpolated_motion_driver/axis/silverlode_axis.h"
+#include "interpolated_motion_driver/axis/cyclic/cyclic_axis.h"
+#include "interpolated_motion_driver/axis/epos/epos_axis.h"
+#include "interpolated_motion_driver/axis/silverlode/queue_delivery.h"
+#include "interpolated_motion_driver/axis/silverlode/register_delivery.h"
+#include "interpolated_motion_driver/axis/silverlode/silverlode_axis.h"
 #include "interpolated_motion_driver/hardware/fault_injection.h"
 #include "interpolated_motion_driver/hardware/serial_port_device.h"
 #include "interpolated_motion_driver/hardware/socketcan_device.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/axis/cyclic_telemetry.h"
+#include "interpolated_motion_driver/axis/cyclic/telemetry.h"
 
 namespace interpolated_motion::hardware {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "wire_host.h"
+#include "emulation/canopen/wire_host.h"
 
 namespace interpolated_motion::emulation {
 namespace {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "hardware/fault_in_motion.h"
-#include "hardware/line_traffic.h"
 #include "hardware/scenario.h"
+#include "hardware/silverlode/line_traffic.h"
 #include "hardware/sine_timing.h"
 
 // All drives of a line started by one command to the global address.

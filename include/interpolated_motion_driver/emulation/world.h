@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "interpolated_motion_driver/emulation/cyclic_drive.h"
-#include "interpolated_motion_driver/emulation/cyclic_parameters.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_parameters.h"
 #include "interpolated_motion_driver/emulation/device.h"
-#include "interpolated_motion_driver/emulation/epos_drive.h"
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
-#include "interpolated_motion_driver/emulation/silverdust.h"
-#include "interpolated_motion_driver/emulation/silverdust_parameters.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
+#include "interpolated_motion_driver/emulation/epos/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/transport/can_bus.h"
 #include "interpolated_motion_driver/transport/serial_line.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"

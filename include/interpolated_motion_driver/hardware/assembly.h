@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
-#include "interpolated_motion_driver/axis/line_start.h"
+#include "interpolated_motion_driver/axis/silverlode/line_start.h"
 #include "interpolated_motion_driver/emulation/world.h"
 #include "interpolated_motion_driver/hardware/bus_link.h"
 #include "interpolated_motion_driver/hardware/can_link.h"

@@ -7,10 +7,10 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "interpolated_motion_driver/axis/segment_registers.h"
-#include "interpolated_motion_driver/emulation/cyclic_parameters.h"
-#include "interpolated_motion_driver/emulation/epos_parameters.h"
-#include "interpolated_motion_driver/emulation/silverdust_parameters.h"
+#include "interpolated_motion_driver/axis/silverlode/segment_registers.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_parameters.h"
+#include "interpolated_motion_driver/emulation/epos/epos_parameters.h"
+#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/interpolation/ims_profile.h"
 #include "interpolated_motion_driver/motion/setpoint.h"

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "interpolated_motion_driver/emulation/cyclic_drive.h"
-#include "interpolated_motion_driver/emulation/epos_drive.h"
-#include "interpolated_motion_driver/emulation/silverdust.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
 #include "interpolated_motion_driver/transport/virtual_serial_line.h"
 #include "interpolated_motion_driver/units/time.h"

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/cia402/sdo_sequence.h"
+#include "interpolated_motion_driver/axis/cyclic/cyclic_parameters.h"
+#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+
+namespace interpolated_motion::axis {
+
+/// The reads and writes that identify, verify and parameterise a cyclic drive in Pre-operational. The
+/// identity goes to `identity`, which must outlive the sequence. Needed: 0x6060..0x6065, 0x607A, 0x60C2 and a
+/// 0x6502 with mode 8; what a drive may lack (0x1006, 0x6007, 0x605E, 0x607D, 0x6084, 0x6085) is set where it
+/// is there.
+std::vector<SdoSequence::Step> cyclic_bring_up_steps(const CyclicAxisParameters& parameters,
+                                                     std::uint8_t node, cia402::Identity& identity);
+
+}  // namespace interpolated_motion::axis

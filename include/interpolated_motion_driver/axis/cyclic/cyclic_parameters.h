@@ -1,0 +1,18 @@
+#pragma once
+
+#include "interpolated_motion_driver/axis/cia402/cia402_parameters.h"
+
+namespace interpolated_motion::axis {
+
+/// Settings of one drive in the cyclic synchronous position mode.
+struct CyclicAxisParameters : Cia402AxisParameters {
+  double deviation_bound = 5.0;  ///< counts, at any servo sample
+  HostDuration sync_period =
+      std::chrono::milliseconds(10);  ///< between target positions: whole ms, 1..20 (0x60C2)
+  int interpolation_order = 3;        ///< of the drive's fine interpolation, 1..3; as its manual says
+  double servo_period = 1e-3;         ///< s, between the samples of the fine interpolation
+  double velocity_unit = 1.0;         ///< counts/s in one unit of 0x606C
+  double acceleration_unit = 1.0;     ///< counts/s^2 in one unit of 0x6084 and 0x6085
+};
+
+}  // namespace interpolated_motion::axis

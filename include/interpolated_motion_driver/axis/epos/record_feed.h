@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/encoding/pvt/pvt_encoder.h"
+#include "interpolated_motion_driver/encoding/pvt/segment_fit.h"
+#include "interpolated_motion_driver/interpolation/pvt_record.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// How much of a drive's FIFO may be used.
+struct FeedLimits {
+  std::size_t capacity = 64;  ///< records
+  double horizon = 2.0;       ///< s of motion kept ahead
+};
+
+/// The records of one plan on their way into a drive's FIFO, with the time on the drive's clock at which each
+/// is played. The record that ends the mode (time 0) is the last of them.
+///
+/// What is in the FIFO follows from what has been sent and how far the drive has played, so "full" is known
+/// before it happens. Records are counted from the start of the plan; those played long ago are forgotten.
+class RecordFeed {
+ public:
+  /// Records the FIFO must hold at any time, however short the horizon: the drive faults with fewer than two.
+  static constexpr std::size_t kLeastAhead = 4;
+  /// Places left free, for the uncertainty of the clock at a knot.
+  static constexpr std::size_t kSpare = 2;
+
+  void load(const encoding::PvtStream& stream, const FeedLimits& limits);
+  void rewind() { sent_ = 0; }
+
+  /// The record to send next, if one is due: there is a place for it although the drive may have played no
+  /// more than `least_played`, and it lies within the horizon of `played` (s on the drive's clock).
+  std::optional<PvtRecord> next(double least_played, double played) const;
+  void mark_sent();
+
+  /// Where the records sent so far lead, as the drive counts its samples from the start of the plan.
+  encoding::PvtKnot sent_knot() const;
+  /// The records not yet sent are replaced by those of `stream`, which sets out from sent_knot(). Not once
+  /// all_sent().
+  void replace_unsent(const encoding::PvtStream& stream);
+
+  std::size_t size() const { return forgotten_ + records_.size(); }
+  std::size_t sent() const { return sent_; }
+  bool all_sent() const { return sent_ == size(); }
+  double duration() const { return records_.empty() ? 0.0 : records_.back().end; }
+  /// Time (s) at which record `index` has been played; of one that is forgotten, some time after that.
+  double end(std::size_t index) const { return kept(index).end; }
+  /// How many records have been played `elapsed` s after the start.
+  std::size_t played(double elapsed) const;
+  /// Seconds of motion in the FIFO.
+  double time_ahead(double elapsed) const;
+  std::int32_t start_position() const { return start_position_; }  ///< counts
+  std::int32_t final_position() const;                             ///< counts
+
+  /// When each record may and must cross the bus, `start` being the goal time at which the drive starts. Of a
+  /// plan of which nothing has been sent.
+  std::vector<RecordSlot> slots(GoalTime start) const;
+
+ private:
+  struct Entry {
+    PvtRecord record;
+    double end = 0.0;  ///< s on the drive's clock
+  };
+  /// Sent records remembered, many times what a FIFO holds.
+  static constexpr std::size_t kMemory = 1024;
+
+  void append(const std::vector<PvtRecord>& records);
+  const Entry& kept(std::size_t index) const;
+  bool has_place(double least_played) const;
+  bool is_within_horizon(double played) const;
+
+  FeedLimits limits_;
+  std::int32_t start_position_ = 0;
+  std::deque<Entry> records_;
+  std::size_t forgotten_ = 0;  ///< records before those kept
+  std::size_t sent_ = 0;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "interpolated_motion_driver/encoding/ims/ims_encoder.h"
+#include "interpolated_motion_driver/interpolation/ims_segment.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// The segments of one path on their way into a drive's queue, encoded one by one as they are needed, so that
+/// each can take the drive's clock into account as it is known by then.
+///
+/// Before the path go segments of waiting, in which the drive stands; after it goes the one with time 0,
+/// which ends the interpolated motion. A segment leaves the queue when the drive begins it, so one is
+/// executed while as many as the queue is deep wait: "full" is known before it happens.
+class SegmentFeed {
+ public:
+  /// Begins anew, nothing sent. `depth`: places of the drive's queue, >= 1. Throws as
+  /// encoding::ImsEncoding::validate().
+  void load(const trajectory::Path& path, const encoding::ImsEncoding& encoding, std::int32_t start_counts,
+            std::size_t depth);
+  bool loaded() const { return source_ != nullptr; }
+
+  /// Encodes the way on along `path`, which is the former one up to knot_goal_time(): with the bound of
+  /// `encoding`, doubled as often as it takes, up to `widest` counts. Refused when it cannot be followed even
+  /// so; then the feed is as it was. Not when ending().
+  std::optional<Refusal> plan_way_on(const trajectory::Path& path, encoding::ImsEncoding encoding,
+                                     double widest);
+  /// Takes the way planned last by plan_way_on(), when no segment has been encoded since.
+  void take_way_on();
+
+  /// A segment of waiting for `ticks` >= 1, to be sent next. Only before the first segment of the path.
+  void wait(std::int64_t ticks);
+
+  /// The segment to send next, the same until mark_sent(). A new one is encoded with `rate` goal seconds per
+  /// second of the drive, or with the rate of the last one where `rate` leads into a dead end. Refused when
+  /// the path cannot be followed from where the segments so far lead.
+  Expected<ImsSegment, Refusal> next(double rate);
+  void mark_sent();
+
+  bool all_sent() const { return terminated_; }
+  /// Whether the segment that ends the motion has been given out.
+  bool ending() const { return terminated_ || (next_ && next_->segment.time == 0); }
+  std::size_t sent() const { return sent_; }
+  /// Whether a place of the queue is free although the drive may have played no more than `least_elapsed`
+  /// seconds. The drive has not started yet when `started` is false: then nothing has left the queue.
+  bool has_place(double least_elapsed, bool started) const;
+  /// Segments in the queue, that under execution not counted.
+  std::size_t waiting(double elapsed, bool started) const;
+  /// Seconds of the drive's clock from the start of the motion: where the queue ends, where the segment after
+  /// the one executed at `elapsed` begins.
+  double queue_end() const { return tick_ * static_cast<double>(end_tick_); }
+  double next_begin(double elapsed) const;
+  /// When the drive begins segment `number`, counted from 0, one of those sent last.
+  double begin_of(std::size_t number) const;
+  double duration() const { return queue_end(); }
+
+  /// An instant of the drive's motion.
+  struct Instant {
+    double elapsed = 0.0;  ///< s, drive's clock
+    ImsSegment segment;    ///< under execution then
+  };
+  /// When `ticks_left` remain of a segment, of the one for which that comes nearest to `expected` seconds.
+  std::optional<Instant> instant_of(std::int64_t ticks_left, double expected) const;
+
+  /// Where the segments given out so far lead: seconds of the drive's clock, and goal time. From there on the
+  /// path may still change.
+  double knot_end() const;
+  GoalTime knot_goal_time() const;
+  /// Goal time of any instant of the drive's motion so far.
+  GoalTime goal_time_at(double drive_seconds) const;
+  const trajectory::Path& path() const;
+  GoalTime start_goal_time() const { return start_goal_time_; }  ///< when the drive leaves its waiting
+  std::int32_t final_counts() const { return final_counts_; }
+
+ private:
+  /// What the drive executes from tick `begin` on.
+  struct Stretch {
+    std::int64_t begin = 0;
+    std::int64_t ticks = 0;
+    GoalTime goal_begin{0.0};
+    double rate = 1.0;  ///< goal seconds per drive second
+    ImsSegment segment;
+  };
+  /// The path and its encoder, which refers to it.
+  struct Source {
+    Source(const trajectory::Path& p, const encoding::ImsEncoding& e, const encoding::ImsKnot& from);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+    trajectory::Path path;
+    encoding::ImsEncoding encoding;
+    encoding::ImsEncoder encoder;
+  };
+
+  static std::optional<Refusal> try_out(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
+                                        const encoding::ImsKnot& from);
+  std::optional<Refusal> encode_next(double rate, Stretch& stretch);
+  void take(std::unique_ptr<Source> source);
+  std::size_t executing(double elapsed) const;
+  void forget_old_stretches();
+
+  /// Stretches remembered: those of minutes, so that samples of the drive can be held against the path when
+  /// the motion is over.
+  static constexpr std::size_t kMemory = 4096;
+  /// Of these, the ones that the drive may be executing: far more than any queue is deep.
+  static constexpr std::size_t kRecent = 64;
+
+  std::unique_ptr<Source> source_;
+  std::unique_ptr<Source> way_on_;
+  double widest_ = 0.0;  ///< counts, up to where the bound may be doubled
+  GoalTime start_goal_time_{0.0};
+  std::int32_t start_counts_ = 0;
+  std::int32_t final_counts_ = 0;
+  std::size_t depth_ = 0;
+  double tick_ = 0.0;
+  std::optional<Stretch> next_;
+  ImsSegment last_;
+  std::deque<Stretch> stretches_;  ///< of the segments sent, the last ones
+  std::size_t sent_ = 0;
+  std::int64_t end_tick_ = 0;
+  std::int64_t waited_ = 0;  ///< ticks before the path
+  bool terminated_ = false;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,107 @@
+#include "interpolated_motion_driver/axis/cyclic/bring_up.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
+#include "interpolated_motion_driver/axis/cyclic/telemetry.h"
+#include "interpolated_motion_driver/protocol/cia402/cyclic_objects.h"
+
+namespace interpolated_motion::axis {
+
+namespace object = cia402::object;
+using canopen::sdo_write;
+using sdo_steps::Steps;
+
+namespace {
+
+using namespace sdo_steps;
+
+constexpr std::int8_t kMilliseconds = -3;  // 0x60C2:2, power of ten of a second
+
+template <class Unit>
+std::int64_t count(HostDuration d) {
+  return std::chrono::duration_cast<Unit>(d).count();
+}
+
+Steps verification(cia402::Identity& identity) {
+  return {read_device_type(),
+          read_u32(object::kVendorId, identity.vendor),
+          read_u32(object::kProductCode, identity.product),
+          read_u32(object::kRevisionNumber, identity.revision),
+          read_u32(object::kSerialNumber, identity.serial),
+          require_mode(cia402::Mode::CyclicSynchronousPosition)};
+}
+
+Steps supervision(const CyclicAxisParameters& p) {
+  using std::chrono::milliseconds;
+  const auto consumer = static_cast<std::uint32_t>(p.host_node_id) << 16 |
+                        static_cast<std::uint32_t>(count<milliseconds>(p.heartbeat_timeout));
+  const auto producer = static_cast<std::uint16_t>(count<milliseconds>(p.heartbeat_period));
+  const double window = std::abs(p.transmission.counts_per_radian()) * p.max_following_error;
+  return {
+      SdoSequence::write(sdo_write<std::uint16_t>(object::kProducerHeartbeat, producer)),
+      write_u32(object::kConsumerHeartbeat1, consumer),
+      write_if_present(sdo_write<std::int16_t>(object::kAbortConnectionOption, p.abort_connection_option)),
+      write_if_present(sdo_write<std::int16_t>(object::kFaultReactionOption, p.fault_reaction_option)),
+      write_u32(object::kMaxFollowingError, to_u32(window))};
+}
+
+Steps deceleration(const CyclicAxisParameters& p) {
+  const double counts = std::abs(p.transmission.counts_per_second(p.limits.max_acceleration));
+  const std::uint32_t units = to_u32(counts / p.acceleration_unit);
+  return {write_if_present(sdo_write<std::uint32_t>(object::kProfileDeceleration, units)),
+          write_if_present(sdo_write<std::uint32_t>(object::kQuickStopDeceleration, units))};
+}
+
+/// Two counts outside the joint's own limits, so that rounding never trips them.
+Steps position_limits(const CyclicAxisParameters& p) {
+  double low = std::numeric_limits<std::int32_t>::min();
+  double high = std::numeric_limits<std::int32_t>::max();
+  const auto& limits = p.limits;
+  if (!limits.continuous && std::isfinite(limits.min_position) && std::isfinite(limits.max_position)) {
+    const double a = p.transmission.counts(limits.min_position);
+    const double b = p.transmission.counts(limits.max_position);
+    low = std::floor(std::min(a, b)) - 2.0;
+    high = std::ceil(std::max(a, b)) + 2.0;
+  }
+  return {write_if_present(sdo_write<std::int32_t>(object::kMinPositionLimit, to_i32(low))),
+          write_if_present(sdo_write<std::int32_t>(object::kMaxPositionLimit, to_i32(high)))};
+}
+
+Steps cycle(const CyclicAxisParameters& p) {
+  const auto ms = static_cast<std::uint8_t>(count<std::chrono::milliseconds>(p.sync_period));
+  const auto us = static_cast<std::uint32_t>(count<std::chrono::microseconds>(p.sync_period));
+  return {write_if_present(sdo_write<std::uint32_t>(object::kCommunicationCyclePeriod, us)),
+          SdoSequence::write(sdo_write<std::uint8_t>(object::kInterpolationPeriod, ms)),
+          SdoSequence::write(sdo_write<std::int8_t>(object::kInterpolationTimeIndex, kMilliseconds))};
+}
+
+Steps pdos(const CyclicAxisParameters& p, std::uint8_t node) {
+  using canopen::pdo_disable;
+  using canopen::PdoDirection;
+  Steps steps = pdo(cyclic_pdo::target_rpdo(), node);
+  append(steps, pdo(cyclic_pdo::controlword_rpdo(), node));
+  append(steps, pdo(cyclic_pdo::status_tpdo(), node));
+  append(steps, pdo(cyclic_pdo::velocity_tpdo(p.sync_period), node));
+  append(steps, pdo(cyclic_pdo::demand_tpdo(p.sync_period), node));
+  append(steps, writes({pdo_disable(PdoDirection::Rpdo, 3, node), pdo_disable(PdoDirection::Rpdo, 4, node),
+                        pdo_disable(PdoDirection::Tpdo, 4, node)}));
+  return steps;
+}
+
+}  // namespace
+
+std::vector<SdoSequence::Step> cyclic_bring_up_steps(const CyclicAxisParameters& parameters,
+                                                     std::uint8_t node, cia402::Identity& identity) {
+  Steps steps = verification(identity);
+  append(steps, supervision(parameters));
+  append(steps, deceleration(parameters));
+  append(steps, position_limits(parameters));
+  append(steps, cycle(parameters));
+  append(steps, pdos(parameters, node));
+  return steps;
+}
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,87 @@
+#include "interpolated_motion_driver/axis/epos/record_feed.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace interpolated_motion::axis {
+
+void RecordFeed::load(const encoding::PvtStream& stream, const FeedLimits& limits) {
+  limits_ = limits;
+  start_position_ = stream.start_counts;
+  records_.clear();
+  forgotten_ = 0;
+  sent_ = 0;
+  append(stream.records);
+}
+
+/// Behind what there is, and the record that ends the mode behind that.
+void RecordFeed::append(const std::vector<PvtRecord>& records) {
+  double end = duration();
+  for (const PvtRecord& record : records) records_.push_back({record, end += record.time * 1e-3});
+  records_.push_back({{final_position(), 0, 0}, end});
+}
+
+std::int32_t RecordFeed::final_position() const {
+  return records_.empty() ? start_position_ : records_.back().record.position;
+}
+
+const RecordFeed::Entry& RecordFeed::kept(std::size_t index) const {
+  return records_[index - std::min(index, forgotten_)];
+}
+
+std::optional<PvtRecord> RecordFeed::next(double least_played, double played) const {
+  if (all_sent() || !has_place(least_played) || !is_within_horizon(played)) return std::nullopt;
+  return kept(sent_).record;
+}
+
+void RecordFeed::mark_sent() {
+  if (++sent_ <= forgotten_ + kMemory) return;
+  records_.pop_front();
+  ++forgotten_;
+}
+
+encoding::PvtKnot RecordFeed::sent_knot() const {
+  if (sent_ == 0) return {0, start_position_, 0};
+  const Entry& last = kept(sent_ - 1);
+  return {std::llround(last.end * 1e3), last.record.position, last.record.velocity};
+}
+
+void RecordFeed::replace_unsent(const encoding::PvtStream& stream) {
+  records_.resize(sent_ - forgotten_);
+  append(stream.records);
+}
+
+bool RecordFeed::has_place(double least_played) const {
+  return sent_ - std::min(sent_, this->played(least_played)) + kSpare < limits_.capacity;
+}
+
+bool RecordFeed::is_within_horizon(double played) const {
+  if (sent_ < this->played(played) + kLeastAhead) return true;
+  return end(sent_ - 1) - played < limits_.horizon;
+}
+
+std::size_t RecordFeed::played(double elapsed) const {
+  const auto after = std::upper_bound(records_.begin(), records_.end(), elapsed,
+                                      [](double time, const Entry& entry) { return time < entry.end; });
+  return forgotten_ + static_cast<std::size_t>(after - records_.begin());
+}
+
+double RecordFeed::time_ahead(double elapsed) const {
+  return sent_ == 0 ? 0.0 : std::max(0.0, end(sent_ - 1) - elapsed);
+}
+
+// Record i must be there when record i - 2 has been reached, so that the drive always finds two.
+std::vector<RecordSlot> RecordFeed::slots(GoalTime start) const {
+  const std::size_t places = limits_.capacity - kSpare;
+  std::vector<RecordSlot> slots(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    slots[i].deadline = start + GoalTime{i < 2 ? 0.0 : end(i - 2)};
+    const double place_free = i < places ? 0.0 : end(i - places);
+    const double in_horizon = i < kLeastAhead ? 0.0 : end(i - 1) - limits_.horizon;
+    const double soon_enough = i < kLeastAhead ? 0.0 : end(i - kLeastAhead);
+    slots[i].release = start + GoalTime{std::max(place_free, std::min(in_horizon, soon_enough))};
+  }
+  return slots;
+}
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,183 @@
+#include "interpolated_motion_driver/axis/silverlode/segment_feed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace interpolated_motion::axis {
+
+SegmentFeed::Source::Source(const trajectory::Path& p, const encoding::ImsEncoding& e,
+                            const encoding::ImsKnot& from)
+    : path(p), encoding(e), encoder(path, encoding, from) {}
+
+void SegmentFeed::load(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
+                       std::int32_t start_counts, std::size_t depth) {
+  widest_ = encoding.bound_counts;
+  start_goal_time_ = path.start_time();
+  take(std::make_unique<Source>(
+      path, encoding,
+      encoding::ImsKnot{0, start_goal_time_, interpolation::ims_at_rest(encoding.law(), start_counts)}));
+  start_counts_ = start_counts;
+  depth_ = depth;
+  tick_ = encoding.scale.tick;
+  next_.reset();
+  stretches_.clear();
+  sent_ = 0;
+  end_tick_ = 0;
+  waited_ = 0;
+  terminated_ = false;
+}
+
+void SegmentFeed::take(std::unique_ptr<Source> source) {
+  source_ = std::move(source);
+  const double final_position = source_->path.final_position();
+  final_counts_ =
+      static_cast<std::int32_t>(std::lround(source_->encoding.transmission.counts(final_position)));
+}
+
+// Encoded to its end before it is taken: what the drive is given always leads to rest. It begins a little
+// below the bound that was needed the last time, since bounds that are too narrow take the longest to be
+// refused.
+std::optional<Refusal> SegmentFeed::plan_way_on(const trajectory::Path& path, encoding::ImsEncoding encoding,
+                                                double widest) {
+  const encoding::ImsKnot& knot = source_->encoder.knot();
+  encoding.bound_counts = std::max(encoding.bound_counts, source_->encoding.bound_counts / 2.0);
+  std::optional<Refusal> refusal = try_out(path, encoding, knot);
+  while (refusal && 2.0 * encoding.bound_counts <= widest) {
+    encoding.bound_counts *= 2.0;
+    refusal = try_out(path, encoding, knot);
+  }
+  if (refusal) return refusal;
+  way_on_ = std::make_unique<Source>(path, encoding, knot);
+  widest_ = widest;
+  return std::nullopt;
+}
+
+std::optional<Refusal> SegmentFeed::try_out(const trajectory::Path& path,
+                                            const encoding::ImsEncoding& encoding,
+                                            const encoding::ImsKnot& from) {
+  encoding::ImsEncoder encoder(path, encoding, from);
+  ImsSegment segment;
+  encoding::ImsCertificate certificate;
+  while (!encoder.finished()) {
+    const auto more = encoder.next(segment, certificate);
+    if (!more) return more.error();
+  }
+  return std::nullopt;
+}
+
+void SegmentFeed::take_way_on() { take(std::move(way_on_)); }
+
+const trajectory::Path& SegmentFeed::path() const { return source_->path; }
+
+void SegmentFeed::wait(std::int64_t ticks) {
+  const ImsSegment standing{static_cast<std::int32_t>(ticks), start_counts_, 0, 0};
+  next_ = Stretch{end_tick_, ticks, start_goal_time_, 0.0, standing};
+  waited_ += ticks;
+}
+
+Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
+  if (next_) return next_->segment;
+  Stretch stretch{end_tick_, 0, knot_goal_time(), rate, {}};
+  std::optional<Refusal> refusal = encode_next(rate, stretch);
+  // At another rate than it was tried out with, a way on may become too narrow.
+  while (refusal && 2.0 * source_->encoding.bound_counts <= widest_) {
+    encoding::ImsEncoding wider = source_->encoding;
+    wider.bound_counts *= 2.0;
+    take(std::make_unique<Source>(source_->path, wider, source_->encoder.knot()));
+    refusal = encode_next(rate, stretch);
+  }
+  if (refusal) return *refusal;
+  next_ = stretch;
+  return stretch.segment;
+}
+
+std::optional<Refusal> SegmentFeed::encode_next(double rate, Stretch& stretch) {
+  encoding::ImsEncoder& encoder = source_->encoder;
+  if (encoder.finished()) {
+    stretch.segment = encoding::ims_terminator(last_);
+    return std::nullopt;
+  }
+  encoder.set_rate(rate);
+  encoding::ImsCertificate certificate;
+  const auto more = encoder.next(stretch.segment, certificate);
+  if (!more) return more.error();
+  stretch.ticks = stretch.segment.time;
+  stretch.rate = encoder.rate();
+  return std::nullopt;
+}
+
+void SegmentFeed::mark_sent() {
+  last_ = next_->segment;
+  terminated_ = last_.time == 0;
+  stretches_.push_back(*next_);
+  forget_old_stretches();
+  end_tick_ += next_->ticks;
+  ++sent_;
+  next_.reset();
+}
+
+void SegmentFeed::forget_old_stretches() {
+  if (stretches_.size() > kMemory) stretches_.pop_front();
+}
+
+/// Index among `stretches_` of the segment executed at `elapsed`.
+std::size_t SegmentFeed::executing(double elapsed) const {
+  const auto tick = static_cast<std::int64_t>(std::floor(elapsed / tick_));
+  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), tick,
+                                      [](std::int64_t t, const Stretch& s) { return t < s.begin; });
+  return after == stretches_.begin() ? 0 : static_cast<std::size_t>(after - stretches_.begin()) - 1;
+}
+
+std::size_t SegmentFeed::waiting(double elapsed, bool started) const {
+  if (!started || stretches_.empty()) return sent_;
+  return stretches_.size() - 1 - executing(elapsed);
+}
+
+bool SegmentFeed::has_place(double least_elapsed, bool started) const {
+  return waiting(least_elapsed, started) < depth_;
+}
+
+double SegmentFeed::next_begin(double elapsed) const {
+  if (stretches_.empty()) return 0.0;
+  const Stretch& now = stretches_[executing(elapsed)];
+  return tick_ * static_cast<double>(now.begin + now.ticks);
+}
+
+double SegmentFeed::begin_of(std::size_t number) const {
+  const std::size_t forgotten = sent_ - stretches_.size();
+  return tick_ * static_cast<double>(stretches_[number - forgotten].begin);
+}
+
+std::optional<SegmentFeed::Instant> SegmentFeed::instant_of(std::int64_t ticks_left, double expected) const {
+  std::optional<Instant> nearest;
+  const std::size_t recent = std::min(stretches_.size(), kRecent);
+  for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(recent); it != stretches_.end(); ++it) {
+    const Stretch& stretch = *it;
+    if (ticks_left < 1 || ticks_left > stretch.ticks) continue;
+    const double elapsed = tick_ * static_cast<double>(stretch.begin + stretch.ticks - ticks_left);
+    if (!nearest || std::abs(elapsed - expected) < std::abs(nearest->elapsed - expected))
+      nearest = {elapsed, stretch.segment};
+  }
+  return nearest;
+}
+
+double SegmentFeed::knot_end() const {
+  return tick_ * static_cast<double>(end_tick_ + (next_ ? next_->ticks : 0));
+}
+
+GoalTime SegmentFeed::knot_goal_time() const { return source_->encoder.knot().goal_time; }
+
+GoalTime SegmentFeed::goal_time_at(double drive_seconds) const {
+  if (!source_) return GoalTime{0.0};
+  const double path_begin = tick_ * static_cast<double>(waited_);
+  if (stretches_.empty() || drive_seconds < path_begin)
+    return start_goal_time_ + GoalTime{drive_seconds - path_begin};
+  const Stretch& stretch = stretches_[executing(drive_seconds)];
+  // The last tick of waiting and the first one of the path are the same instant.
+  if (stretch.rate == 0.0) return stretch.goal_begin + GoalTime{drive_seconds - path_begin};
+  const double since = drive_seconds - tick_ * static_cast<double>(stretch.begin);
+  return stretch.goal_begin + GoalTime{since * stretch.rate};
+}
+
+}  // namespace interpolated_motion::axis

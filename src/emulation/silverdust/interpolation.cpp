@@ -1,0 +1,119 @@
+#include "interpolated_motion_driver/emulation/silverdust/interpolation.h"
+
+#include <algorithm>
+
+namespace interpolated_motion::emulation {
+
+using namespace silverdust_register;
+
+namespace {
+
+constexpr std::uint32_t kTaken = 0x00010000;  // high word of register 17
+constexpr std::uint32_t kHighWord = 0xFFFF0000;
+constexpr std::uint32_t kLowWord = 0x0000FFFF;
+constexpr std::int64_t kSegmentRegisters = 4;
+
+}  // namespace
+
+bool SegmentQueue::push(const VelocitySegment& segment) {
+  if (size_ == ring_.size()) return false;
+  ring_[(head_ + size_) % ring_.size()] = segment;
+  ++size_;
+  return true;
+}
+
+VelocitySegment SegmentQueue::pop() {
+  const VelocitySegment segment = ring_[head_];
+  head_ = (head_ + 1) % ring_.size();
+  --size_;
+  return segment;
+}
+
+bool SegmentQueue::holds_end() const {
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (ring_[(head_ + i) % ring_.size()].time == 0) return true;
+  }
+  return false;
+}
+
+InterpolatedMove::InterpolatedMove(const SilverDustParameters& parameters, RegisterFile& registers,
+                                   SegmentQueue& queue, ProfileGenerator& profile)
+    : full_scale_(parameters.ims_acceleration_full_scale),
+      registers_(registers),
+      queue_(queue),
+      profile_(profile) {}
+
+void InterpolatedMove::start() {
+  phase_ = Phase::Starting;
+  ticks_ = -1;
+}
+
+void InterpolatedMove::tick() {
+  ++ticks_;
+  if (phase_ == Phase::Starting) return load();
+  profile_.tick();
+  if (phase_ == Phase::Running) {
+    const std::int32_t left = registers_.get(kSegmentTime) - 1;
+    registers_.set(kSegmentTime, left);
+    if (left == 0) load();
+  } else if (phase_ == Phase::LastTick) {
+    profile_.brake(0);
+    phase_ = Phase::Idle;
+  } else if (profile_.velocity() == 0) {
+    phase_ = Phase::Idle;
+  }
+}
+
+void InterpolatedMove::load() {
+  VelocitySegment segment;
+  if (!fetch(segment)) return stop();
+  ++counters_.segments_executed;
+  execute(segment);
+  phase_ = segment.time > 0 ? Phase::Running : Phase::LastTick;
+}
+
+bool InterpolatedMove::fetch(VelocitySegment& segment) {
+  const auto control = static_cast<std::uint32_t>(registers_.get(kSegmentControl));
+  const std::uint32_t first = control & kLowWord;
+  if (first == 0) return fetch_queued(segment);
+  return (control & kHighWord) == 0 && fetch_registers(first, segment);
+}
+
+bool InterpolatedMove::fetch_queued(VelocitySegment& segment) {
+  if (!queue_.holds_end()) {
+    const int fill = queue_.size();
+    counters_.minimum_fill = counters_.minimum_fill < 0 ? fill : std::min(counters_.minimum_fill, fill);
+  }
+  if (queue_.size() == 0) return false;
+  segment = queue_.pop();
+  return true;
+}
+
+bool InterpolatedMove::fetch_registers(std::int64_t first, VelocitySegment& segment) {
+  if (!RegisterFile::user(first, kSegmentRegisters)) return false;
+  segment.time = std::max(registers_.get(first), 0);
+  segment.position = registers_.get(first + 1);
+  segment.acceleration = std::max(registers_.get(first + 2), 0);
+  segment.velocity = std::max(registers_.get(first + 3), 0);
+  registers_.set(kSegmentControl, static_cast<std::int32_t>(kTaken | static_cast<std::uint32_t>(first)));
+  return true;
+}
+
+void InterpolatedMove::execute(const VelocitySegment& segment) {
+  registers_.set(kSegmentTime, segment.time);
+  registers_.set(kProfilePosition, segment.position);
+  registers_.set(kProfileAcceleration, segment.acceleration);
+  registers_.set(kProfileVelocity, segment.velocity);
+  registers_.set(kProfileDeceleration, segment.acceleration);
+  profile_.move_to(segment.position, profile_.scale().step(segment.acceleration, full_scale_),
+                   segment.velocity);
+}
+
+void InterpolatedMove::stop() {
+  ++counters_.underruns;
+  const std::int32_t deceleration = std::max(registers_.get(kDefaultDeceleration), 0);
+  profile_.brake(profile_.scale().step(deceleration, full_scale_));
+  phase_ = profile_.velocity() == 0 ? Phase::Idle : Phase::Stopping;
+}
+
+}  // namespace interpolated_motion::emulation
