@@ -62,7 +62,6 @@ function(imd_add_node_tests)
     imd_add_gtest(node_tests "${sources}" imd_node)
   endif()
 
-  find_package(rostest REQUIRED)
   file(GLOB tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test/node/*.test)
   foreach(test IN LISTS tests)
     get_filename_component(name ${test} NAME_WE)
