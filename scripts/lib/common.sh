@@ -3,6 +3,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build
+devel=$root/devel
 export LC_ALL=C.UTF-8
 
 # ROS's Python modules belong to the system's Python; another python3 in front of it would not find them.
