@@ -12,7 +12,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-LINTS = ("format", "includes", "catkin", "tidy")
+LINTS = ("format", "includes", "classes", "catkin", "tidy")
 
 
 def cases_of(result):
