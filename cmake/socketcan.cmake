@@ -13,7 +13,7 @@ function(imd_add_emulated_drives)
   add_executable(emulated_drives ${sources})
   set_target_properties(emulated_drives PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-  target_link_libraries(emulated_drives PRIVATE imd_hardware)
+  target_link_libraries(emulated_drives PRIVATE imd_hardware imd_command_line)
   install(TARGETS emulated_drives RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 

@@ -1,7 +1,8 @@
 # One static library per stage, in the order of the data; a stage may use the stages before it only.
-# Sources are src/<stage>/**.cpp, tests are test/<stage>/**_test.cpp.
+# Sources are src/<stage>/**.cpp, tests are test/<stage>/**_test.cpp. command_line is no stage of the data, but built like one: what the
+# programs have in common, with ROS or without.
 
-set(IMD_STAGES units interpolation trajectory encoding protocol axis motion transport emulation hardware)
+set(IMD_STAGES units interpolation trajectory encoding protocol axis motion transport emulation hardware command_line)
 set(IMD_USES_units "")
 set(IMD_USES_interpolation "")
 set(IMD_USES_trajectory "")
@@ -12,6 +13,7 @@ set(IMD_USES_motion axis trajectory)
 set(IMD_USES_transport protocol)
 set(IMD_USES_emulation interpolation protocol transport)
 set(IMD_USES_hardware motion transport emulation)
+set(IMD_USES_command_line "")
 
 # Sets IMD_SOURCES_<stage>, and IMD_LIBRARIES to the stages that have a library to link: users before the used, as static
 # libraries want it. A stage of headers only has none.
@@ -46,6 +48,8 @@ function(imd_add_stages)
   endforeach()
   target_include_directories(imd_hardware SYSTEM ${scope} ${urdfdom_INCLUDE_DIRS})
   target_link_libraries(imd_hardware ${scope} yaml-cpp ${urdfdom_LIBRARIES})
+  target_include_directories(imd_command_line SYSTEM ${scope} ${Boost_INCLUDE_DIRS})
+  target_link_libraries(imd_command_line ${scope} yaml-cpp Boost::program_options)
 endfunction()
 
 # A GoogleTest program NAME from sources, run by ctest and by catkin's run_tests alike, result in test_results as JUnit XML.

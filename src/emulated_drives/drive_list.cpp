@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "interpolated_motion_driver/command_line/input_file.h"
 #include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
 
@@ -33,7 +34,7 @@ std::map<std::string, trajectory::JointLimits> any_limits(const YAML::Node& driv
 }
 
 Configuration load_configuration(const std::string& file) {
-  const YAML::Node root = YAML::LoadFile(file);
+  const YAML::Node root = command_line::read_yaml_file(file);
   try {
     // Keys of the node are not checked here.
     const std::vector<std::string> keys = hardware::ParameterReader(root, "").keys();

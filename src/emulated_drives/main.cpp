@@ -112,12 +112,10 @@ int serve(const Options& options) {
 int main(int argc, char** argv) {
   using namespace interpolated_motion::emulated_drives;
   try {
-    const Options options = parse_options(std::vector<std::string>(argv + 1, argv + argc));
-    if (options.help) {
-      std::fputs(usage().c_str(), stdout);
-      return kEnded;
-    }
-    return serve(options);
+    const auto options = parse_options(std::vector<std::string>(argv + 1, argv + argc));
+    if (options) return serve(*options);
+    std::fputs(usage().c_str(), stdout);
+    return kEnded;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "emulated_drives: %s\n", error.what());
     return kBadInput;

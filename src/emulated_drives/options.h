@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,17 +15,16 @@ struct Options {
   std::string config_file;     ///< driver configuration whose drives are emulated
   std::string bus;             ///< the bus of that configuration; empty: its only one of that type
   std::vector<double> clock_errors;  ///< ppm, one for each drive or one for all; empty: as configured
-  std::uint32_t bitrate = 0;         ///< bit/s, 0: of the configuration, else 1000000
+  int bitrate = 0;                   ///< bit/s, 0: of the configuration, else 1000000
   int baud = 0;                      ///< bit/s, 0: of the configuration, else 57600
   std::string samples_folder;        ///< where each drive's latest motion is written; empty: nowhere
-  bool help = false;
 };
 
-/// Reads the arguments after the program's name. Throws std::invalid_argument with the argument that is wrong
-/// and what is allowed.
-Options parse_options(const std::vector<std::string>& arguments);
+/// Reads the arguments after the program's name; nothing when they ask for help. Throws std::invalid_argument
+/// with the argument that is wrong and what is allowed.
+std::optional<Options> parse_options(const std::vector<std::string>& arguments);
 
-/// How to call the program.
+/// How to call the program: every option, its unit and default.
 std::string usage();
 
 }  // namespace interpolated_motion::emulated_drives

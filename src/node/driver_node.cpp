@@ -25,7 +25,9 @@ std::unique_ptr<WireLog> open_wire_log(const LoadedConfiguration& configuration)
   if (configuration.node.wire_log.empty()) return nullptr;
   std::vector<std::string> buses;
   for (const auto& bus : configuration.driver.buses) buses.push_back(bus.name);
-  return std::make_unique<WireLog>(configuration.node.wire_log, wall_clock_offset(), std::move(buses));
+  auto log = std::make_unique<WireLog>(configuration.node.wire_log, wall_clock_offset(), std::move(buses));
+  ROS_INFO_STREAM("all bus traffic goes to " << log->path());
+  return log;
 }
 
 }  // namespace

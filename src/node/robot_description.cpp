@@ -1,13 +1,13 @@
 #include "interpolated_motion_driver/node/robot_description.h"
 
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <ros/package.h>
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
+
+#include "interpolated_motion_driver/command_line/input_file.h"
 
 namespace interpolated_motion::node {
 namespace {
@@ -93,11 +93,11 @@ std::map<std::string, trajectory::JointLimits> joint_limits(const RobotDescripti
 
 RobotDescription read_robot_description_file(const std::string& path) {
   const std::string file = resolve(path);
-  std::ifstream in(file);
-  if (!in)
-    throw std::invalid_argument(
-        fmt::format("Parameter robot_description_file is {}, which cannot be read.", file));
-  return {{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file};
+  try {
+    return {command_line::read_text_file(file), file};
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(fmt::format("Parameter robot_description_file: {}.", error.what()));
+  }
 }
 
 }  // namespace interpolated_motion::node

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -39,10 +40,13 @@ std::string serial_line(const std::string& bus, bool from_host, std::string_view
 }
 
 WireLog::WireLog(const std::string& path, HostDuration offset, std::vector<std::string> buses)
-    : path_(path), offset_(offset), buses_(std::move(buses)), file_(std::fopen(path.c_str(), "w")) {
+    : path_(std::filesystem::absolute(path)),
+      offset_(offset),
+      buses_(std::move(buses)),
+      file_(std::fopen(path_.c_str(), "w")) {
   if (!file_) {
     throw std::runtime_error(
-        fmt::format("Parameter wire_log is {}, which cannot be written: {}.", path, std::strerror(errno)));
+        fmt::format("Parameter wire_log is {}, which cannot be written: {}.", path_, std::strerror(errno)));
   }
   queue_.reserve(kQueueLength);
   thread_ = std::thread([this] { run(); });

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "interpolated_motion_driver/command_line/input_file.h"
+
 namespace interpolated_motion::tools {
 namespace {
 
@@ -57,10 +59,9 @@ trajectory_msgs::JointTrajectory read_trajectory(const YAML::Node& node) {
 }  // namespace
 
 trajectory_msgs::JointTrajectory read_goal_file(const std::string& path) {
+  const YAML::Node content = command_line::read_yaml_file(path);
   try {
-    return read_trajectory(YAML::LoadFile(path));
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(fmt::format("goal file {} cannot be read", path));
+    return read_trajectory(content);
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("goal file {}: {}", path, error.what()));
   }

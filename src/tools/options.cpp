@@ -4,63 +4,56 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/command_line/option_set.h"
+
 namespace interpolated_motion::tools {
 namespace {
 
-double read_number(const std::string& name, const std::string& text, double least, double most) {
-  std::size_t read = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &read);
-  } catch (const std::exception&) {
-    read = 0;
-  }
-  if (read == 0 || read != text.size() || !(value >= least && value <= most)) {
-    throw std::runtime_error(fmt::format("{} {}: give a number from {} to {}", name, text, least, most));
-  }
-  return value;
+constexpr const char* kSynopsis =
+    "trajectory_client --goal FILE | --setpoints SECONDS [--lost PART] [--node NAME] [--wait SECONDS]\n"
+    "                  [--timeout SECONDS] [NAME:=VALUE ...]\n"
+    "Sends a trajectory, or a stream of setpoints, to the driver, shows its progress and reports what the\n"
+    "drives made of it.\n";
+
+constexpr const char* kNotes =
+    "NAME:=VALUE, __name:=VALUE and the like are ROS's.\n"
+    "Exit code: 0 SUCCEEDED, 2 bad file or arguments, 3 rejected, 4 aborted or preempted, 5 no answer in "
+    "time.\n";
+
+command_line::OptionSet option_set(Options& options) {
+  command_line::OptionSet set(kSynopsis, kNotes);
+  set.add_text({"goal", "FILE", "YAML trajectory_msgs/JointTrajectory"}, options.goal_file);
+  set.add_number(
+      {"setpoints", "SECONDS",
+       "streams a sine of all joints for 0.1..3600 s instead: 50 setpoints a second, each up to half "
+       "a period late"},
+      {0.1, 3600.0}, options.setpoints);
+  set.add_number({"lost", "PART", "of the setpoints is not sent, 0..0.9 (default: 0)"}, {0.0, 0.9},
+                 options.lost);
+  set.add_text({"node", "NAME", fmt::format("the driver's node (default: {})", options.node)}, options.node);
+  set.add_number(
+      {"wait", "SECONDS", fmt::format("for the driver to be ready, 0..1e6 s (default: {})", options.wait)},
+      {0.0, 1e6}, options.wait);
+  set.add_number({"timeout", "SECONDS",
+                  "for the whole run, 0.001..1e6 s (default: the goal's own length + 60 s once the driver is "
+                  "ready)"},
+                 {0.001, 1e6}, options.timeout);
+  return set;
 }
 
 }  // namespace
 
-Options parse_options(const std::vector<std::string>& arguments) {
+std::optional<Options> parse_options(const std::vector<std::string>& arguments) {
   Options options;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& name = arguments[i];
-    if (name == "--help" || name == "-h") {
-      options.help = true;
-      return options;
-    }
-    if (name != "--goal" && name != "--setpoints" && name != "--lost" && name != "--node" &&
-        name != "--timeout") {
-      throw std::runtime_error(fmt::format("unknown argument {}", name));
-    }
-    if (++i == arguments.size()) throw std::runtime_error(name + " needs a value");
-    if (name == "--goal") options.goal_file = arguments[i];
-    if (name == "--node") options.node = arguments[i];
-    if (name == "--setpoints") options.setpoints = read_number(name, arguments[i], 0.1, 3600.0);
-    if (name == "--lost") options.lost = read_number(name, arguments[i], 0.0, 0.9);
-    if (name == "--timeout") options.timeout = read_number(name, arguments[i], 0.001, 1e6);
-  }
+  if (!option_set(options).parse(arguments)) return std::nullopt;
   if (options.goal_file.empty() == (options.setpoints == 0.0))
-    throw std::runtime_error("give either --goal FILE or --setpoints SECONDS");
+    throw std::invalid_argument("give either --goal FILE or --setpoints SECONDS");
   return options;
 }
 
 std::string usage() {
-  return "trajectory_client --goal FILE | --setpoints SECONDS [--lost PART] [--node NAME] [--timeout "
-         "SECONDS]\n"
-         "Sends a trajectory, or a stream of setpoints, to the driver, shows its progress and reports what "
-         "the "
-         "drives made of it.\n"
-         "  --goal FILE        YAML trajectory_msgs/JointTrajectory\n"
-         "  --setpoints SECONDS  a sine of all joints, 50 setpoints a second, each up to half a period late\n"
-         "  --lost PART        of the setpoints is not sent, 0..0.9 (default 0)\n"
-         "  --node NAME        the driver's node (default /driver)\n"
-         "  --timeout SECONDS  for the whole run (default: 60 s for the driver to be ready, then the goal's "
-         "own length + 60 s)\n"
-         "Exit code: 0 SUCCEEDED, 2 bad file or arguments, 3 rejected, 4 aborted or preempted, 5 no answer "
-         "in time.\n";
+  Options options;
+  return option_set(options).help();
 }
 
 }  // namespace interpolated_motion::tools

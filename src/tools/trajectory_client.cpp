@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <fmt/format.h>
 #include <interpolated_motion_driver/GetMotionReport.h>
+#include <ros/master.h>
 #include <ros/ros.h>
 
 #include "goal_file.h"
@@ -26,9 +29,8 @@ using State = actionlib::SimpleClientGoalState;
 
 enum ExitCode { Succeeded = 0, BadInput = 2, Rejected = 3, NotSucceeded = 4, Timeout = 5 };
 
-constexpr double kServerPatience = 180.0;  // s, a slow start of ROS and bring-up of all drives included
-constexpr double kGoalPatience =
-    60.0;  // s beyond the goal's own length, for lead-in, settling and a loaded machine
+/// s beyond the goal's own length, for lead-in, settling and a loaded machine.
+constexpr double kGoalPatience = 60.0;
 constexpr auto kStep = std::chrono::milliseconds(100);
 
 Clock::time_point after(double seconds) {
@@ -49,7 +51,7 @@ void complain(const std::string& text) { std::fputs(("trajectory_client: " + tex
 /// Waits on the wall clock: simulated ROS time may stand still.
 template <class Done, class EachStep>
 bool wait_until(Clock::time_point deadline, Done done, EachStep each_step) {
-  while (ros::ok()) {
+  while (!ros::isShuttingDown()) {
     if (done()) return true;
     if (Clock::now() > deadline) return false;
     each_step();
@@ -58,15 +60,31 @@ bool wait_until(Clock::time_point deadline, Done done, EachStep each_step) {
   return false;
 }
 
-bool wait_for_server(Client& client, const std::string& node, Clock::time_point deadline) {
+/// Says every 5 s, from the first second on, what is waited for.
+template <class Done>
+bool wait_and_say(Clock::time_point deadline, const std::string& what, Done done) {
   auto next_message = Clock::now() + std::chrono::seconds(1);
-  return wait_until(
-      deadline, [&] { return client.isServerConnected(); },
-      [&] {
-        if (Clock::now() < next_message) return;
-        say(fmt::format("waiting for the action {}/follow_joint_trajectory", node));
-        next_message = Clock::now() + std::chrono::seconds(5);
-      });
+  return wait_until(deadline, done, [&] {
+    if (Clock::now() < next_message) return;
+    const auto left = std::chrono::duration<double>(deadline - Clock::now()).count();
+    say(fmt::format("waiting for {}, {:.0f} s more at most", what, std::max(left, 0.0)));
+    next_message = Clock::now() + std::chrono::seconds(5);
+  });
+}
+
+/// Anything else of ROS would wait for its master for ever.
+bool wait_for_master(Clock::time_point deadline) {
+  const std::string master = "ROS's master at " + ros::master::getURI();
+  if (wait_and_say(deadline, master, [] { return ros::master::check(); })) return true;
+  complain("no answer from " + master);
+  return false;
+}
+
+bool wait_for_server(Client& client, const std::string& node, Clock::time_point deadline) {
+  const std::string action = fmt::format("the action {}/follow_joint_trajectory", node);
+  if (wait_and_say(deadline, action, [&] { return client.isServerConnected(); })) return true;
+  complain(fmt::format("nobody serves {}; is the driver running?", action));
+  return false;
 }
 
 void print_report(ros::NodeHandle& ros_node, const std::string& node) {
@@ -88,19 +106,24 @@ ExitCode exit_code(const State& state) {
   return state == State::REJECTED ? Rejected : NotSucceeded;
 }
 
-ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& trajectory) {
+/// Until when this run may wait.
+struct Deadlines {
+  Clock::time_point ready;               ///< for the driver
+  std::optional<Clock::time_point> end;  ///< for all of it
+};
+
+Deadlines deadlines(const Options& options) {
+  if (options.timeout == 0.0) return {after(options.wait), std::nullopt};
+  return {after(std::min(options.wait, options.timeout)), after(options.timeout)};
+}
+
+ExitCode send(const Options& options, const Deadlines& until,
+              const trajectory_msgs::JointTrajectory& trajectory) {
   ros::NodeHandle ros_node;
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  const bool limited = options.timeout > 0.0;
-  const auto limit = after(options.timeout);
-
   Client client(options.node + "/follow_joint_trajectory", false);
-  if (!wait_for_server(client, options.node, limited ? limit : after(kServerPatience))) {
-    complain(
-        fmt::format("no action server {}/follow_joint_trajectory; is the driver running?", options.node));
-    return Timeout;
-  }
+  if (!wait_for_server(client, options.node, until.ready)) return Timeout;
 
   Progress progress(length_of(trajectory));
   const auto buffers = ros_node.subscribe<interpolated_motion_driver::BufferStatus>(
@@ -113,7 +136,7 @@ ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& tr
   say(fmt::format("sending {} points, {:.3f} s", trajectory.points.size(), length_of(trajectory)));
   client.sendGoal(goal, {}, {}, [&progress](const auto& feedback) { progress.feedback(*feedback); });
 
-  const auto deadline = limited ? limit : after(length_of(trajectory) + kGoalPatience);
+  const auto deadline = until.end.value_or(after(length_of(trajectory) + kGoalPatience));
   const bool ended = wait_until(
       deadline, [&] { return client.getState().isDone(); },
       [&] {
@@ -134,21 +157,25 @@ ExitCode send(const Options& options, const trajectory_msgs::JointTrajectory& tr
   return exit_code(client.getState());
 }
 
-ExitCode stream(const Options& options) {
+ExitCode stream(const Options& options, const Deadlines& until) {
   ros::NodeHandle ros_node;
   ros::AsyncSpinner spinner(1);
   spinner.start();
   Client client(options.node + "/follow_joint_trajectory", false);
-  if (!wait_for_server(client, options.node,
-                       after(options.timeout > 0.0 ? options.timeout : kServerPatience))) {
-    complain(
-        fmt::format("no action server {}/follow_joint_trajectory; is the driver running?", options.node));
-    return Timeout;
-  }
+  if (!wait_for_server(client, options.node, until.ready)) return Timeout;
   const bool followed = stream_setpoints(ros_node, {options.node, options.setpoints, options.lost});
   print_report(ros_node, options.node);
   say(followed ? "FOLLOWED" : "NOT FOLLOWED");
   return followed ? Succeeded : NotSucceeded;
+}
+
+ExitCode run(const Options& options) {
+  const auto until = deadlines(options);
+  // Read before anything is waited for: a bad file is told at once.
+  const auto goal =
+      options.goal_file.empty() ? trajectory_msgs::JointTrajectory() : read_goal_file(options.goal_file);
+  if (!wait_for_master(until.ready)) return Timeout;
+  return options.goal_file.empty() ? stream(options, until) : send(options, until, goal);
 }
 
 }  // namespace
@@ -160,14 +187,13 @@ int main(int argc, char** argv) {
   ros::removeROSArgs(argc, argv, arguments);
   arguments.erase(arguments.begin());
   try {
-    const Options options = parse_options(arguments);
-    if (options.help) {
+    const auto options = parse_options(arguments);
+    if (!options) {
       std::fputs(usage().c_str(), stdout);
       return Succeeded;
     }
     ros::init(argc, argv, "trajectory_client", ros::init_options::AnonymousName);
-    if (options.setpoints > 0.0) return stream(options);
-    return send(options, read_goal_file(options.goal_file));
+    return run(*options);
   } catch (const std::exception& error) {
     complain(error.what());
     return BadInput;

@@ -65,7 +65,7 @@ TEST(RobotDescription, NamesTheFileThatCannotBeRead) {
     read_robot_description_file("/nowhere/robot.urdf");
     FAIL() << "read";
   } catch (const std::invalid_argument& error) {
-    expect_words(error.what(), {"robot_description_file", "/nowhere/robot.urdf"});
+    expect_words(error.what(), {"robot_description_file", "/nowhere/robot.urdf", "No such file"});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/node/wire_log.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -89,6 +90,15 @@ TEST_F(WireLogFile, WritesEveryFrameThatIsNotCountedAsLost) {
     lost = log.lost();
   }
   EXPECT_EQ(lines_of(path_).size() + lost, kFrames);
+}
+
+TEST_F(WireLogFile, TellsWhereARelativePathIs) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(testing::TempDir());
+  const WireLog log("wire_log_test.log", HostDuration(0), {"can0"});
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(std::filesystem::path(log.path()).is_absolute()) << log.path();
+  EXPECT_TRUE(std::filesystem::equivalent(log.path(), path_)) << log.path();
 }
 
 TEST(WireLogOpening, NamesTheFileThatCannotBeWritten) {

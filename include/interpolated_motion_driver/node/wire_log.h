@@ -30,8 +30,9 @@ std::string serial_line(const std::string& bus, bool from_host, std::string_view
 /// bounded queue; when the file system cannot keep up, frames and lines are left out and counted.
 class WireLog {
  public:
-  /// Opens `path` anew. `offset`: wall clock minus host clock. `buses`: every name that will be given to
-  /// append(). Throws std::runtime_error when the file cannot be written.
+  /// Opens `path` anew; a relative one is below the process's working folder, which roslaunch sets to
+  /// ROS_HOME. `offset`: wall clock minus host clock. `buses`: every name that will be given to append().
+  /// Throws std::runtime_error when the file cannot be written.
   WireLog(const std::string& path, HostDuration offset, std::vector<std::string> buses);
   /// Writes what is queued and closes the file.
   ~WireLog();
@@ -49,6 +50,7 @@ class WireLog {
   /// Frames and lines that are missing in the file because the queue was full or the disk was.
   std::uint64_t lost() const;
 
+  /// Absolute, whatever the constructor was given.
   const std::string& path() const { return path_; }
 
  private:

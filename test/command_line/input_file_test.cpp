@@ -1,0 +1,58 @@
+#include "interpolated_motion_driver/command_line/input_file.h"
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace interpolated_motion::command_line {
+namespace {
+
+class InputFile : public testing::Test {
+ protected:
+  void TearDown() override { std::remove(path_.c_str()); }
+
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+
+  const std::string path_ = testing::TempDir() + "input_file_test.yaml";
+};
+
+std::string refusal(const std::string& path) {
+  try {
+    read_yaml_file(path);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "read";
+}
+
+TEST_F(InputFile, IsRead) {
+  write("a: [1, 2]\n");
+  EXPECT_EQ(read_yaml_file(path_)["a"][1].as<int>(), 2);
+}
+
+TEST_F(InputFile, LongerThanABlockIsReadToItsEnd) {
+  write("# " + std::string(100'000, 'x') + "\na: 3\n");
+  EXPECT_EQ(read_yaml_file(path_)["a"].as<int>(), 3);
+}
+
+TEST_F(InputFile, AnEmptyOneHoldsNothing) {
+  write("");
+  EXPECT_TRUE(read_yaml_file(path_).IsNull());
+}
+
+TEST_F(InputFile, WhyItCannotBeReadIsSaid) {
+  EXPECT_EQ(refusal("/nowhere/a.yaml"), "/nowhere/a.yaml cannot be read: No such file or directory");
+  EXPECT_EQ(refusal("/"), "/ cannot be read: Is a directory");
+}
+
+TEST_F(InputFile, WhereItIsNoYamlIsSaid) {
+  write("a: 1\nb: [1, 2\nc: 3\n");
+  const std::string words = refusal(path_);
+  EXPECT_EQ(words.find(path_ + ":3:"), 0U) << words;
+}
+
+}  // namespace
+}  // namespace interpolated_motion::command_line

@@ -1,0 +1,117 @@
+"""Command lines: what the programs say to a user who does not know them, or errs."""
+from pathlib import Path
+
+import pytest
+
+GOALS = Path(__file__).resolve().parents[2] / "config" / "goals"
+GOAL = str(GOALS / "six_axis_positions_only.yaml")
+ALL = ("driver_node", "trajectory_client", "emulated_drives")
+
+
+@pytest.mark.parametrize("program", ALL)
+@pytest.mark.parametrize("flag", ["--help", "-h"])
+def test_help_needs_neither_ros_nor_a_configuration(run, program, flag):
+    result = run(program, flag)
+    assert (result.code, result.error) == (0, "")
+    assert result.out.startswith(program + " ")
+    assert "--help" in result.out
+
+
+OPTIONS = {
+    "trajectory_client": {"--goal FILE": "YAML", "--setpoints SECONDS": "0.1..3600 s", "--lost PART": "0..0.9 (default: 0)",
+                          "--node NAME": "/driver", "--wait SECONDS": "s (default: 60)", "--timeout SECONDS": "1e6 s (default"},
+    "emulated_drives": {"--config FILE": "", "--can INTERFACE": "", "--epos NODES": "1..127", "--serial LINK": "", "--bus NAME": "default",
+                        "--silverlode ADDRESSES": "1..254", "--clock-error-ppm PPM": "ppm (default", "--bitrate BIT/S": "bit/s (default",
+                        "--baud BIT/S": "57600", "--samples FOLDER": "default"},
+    "driver_node": {"__name:=NAME": "default: driver", "_PARAMETER:=VALUE": "wire_log"},
+}
+
+
+@pytest.mark.parametrize("program", ALL)
+def test_help_lists_every_option_with_unit_and_default(run, program):
+    words = " ".join(run(program, "--help").out.split())
+    for option, meaning in OPTIONS[program].items():
+        assert option in words
+        assert meaning in words, option
+
+
+@pytest.mark.parametrize("program, argument, meant", [
+    ("driver_node", "--hlep", "--help"),
+    ("trajectory_client", "--setpoint=3", "--setpoints"),
+    ("trajectory_client", "--tiemout", "--timeout"),
+    ("emulated_drives", "--samlpes", "--samples"),
+    ("emulated_drives", "--clock-error-pmm=3", "--clock-error-ppm"),
+])
+def test_an_unknown_option_is_refused_with_the_one_that_may_be_meant(run, program, argument, meant):
+    result = run(program, argument)
+    assert result.code == 2
+    assert result.error == f"{program}: unknown argument {argument.split('=')[0]}; did you mean {meant}?\n"
+
+
+@pytest.mark.parametrize("program", ALL)
+def test_a_word_that_is_no_option_is_refused(run, program):
+    result = run(program, "drives.yaml")
+    assert result.code == 2
+    assert "drives.yaml" in result.error
+
+
+@pytest.mark.parametrize("arguments, reason", [
+    (["--can", "vcan0", "--epos=128"], '--epos: "128" is not a number within 1..127'),
+    (["--can", "vcan0", "--epos", "1,2,3", "--clock-error-ppm", "-1,-2"], "2 values for 3 drives"),
+    (["--can", "vcan0", "--epos", "1", "--clock-error-ppm=-200000"], "-100000..100000"),
+    (["--config", "/nowhere/drives.yaml"], "/nowhere/drives.yaml cannot be read: No such file or directory"),
+    (["--config", "/"], "/ cannot be read: Is a directory"),
+])
+def test_emulated_drives_says_what_is_wrong(run, arguments, reason):
+    result = run("emulated_drives", *arguments)
+    assert result.code == 2
+    assert reason in result.error
+
+
+def test_emulated_drives_says_where_a_file_is_no_yaml(run, tmp_path):
+    (tmp_path / "drives.yaml").write_text("joints: [a\nbuses:\n")
+    result = run("emulated_drives", "--config", str(tmp_path / "drives.yaml"))
+    assert result.code == 2
+    assert result.error.startswith(f"emulated_drives: {tmp_path}/drives.yaml:2:")
+
+
+@pytest.mark.parametrize("arguments, reason", [
+    ([], "either --goal FILE or --setpoints SECONDS"),
+    (["--goal", "a", "--setpoints", "3"], "either --goal FILE or --setpoints SECONDS"),
+    (["--goal"], "--goal"),
+    (["--goal", "--node", "/driver"], "--goal needs a value, and --node is none"),
+    (["--setpoints=-1"], '"-1" is not a number within 0.1..3600'),
+    (["--setpoints", "-1"], '"-1" is not a number within 0.1..3600'),
+    (["--goal", "/nowhere/goal.yaml"], "/nowhere/goal.yaml cannot be read: No such file or directory"),
+])
+def test_trajectory_client_says_what_is_wrong(run, arguments, reason):
+    result = run("trajectory_client", *arguments)
+    assert result.code == 2
+    assert reason in result.error
+
+
+def test_arguments_of_ros_are_left_to_it(run):
+    for program in ("driver_node", "trajectory_client"):
+        assert run(program, "__name:=other", "a:=b", "_wire_log:=bus.log", "--help").code == 0
+    assert run("driver_node", "__name:=other", "--hlep").code == 2
+
+
+def test_trajectory_client_waits_for_a_master_no_longer_than_it_says(run):
+    result = run("trajectory_client", "--goal", GOAL, "--wait", "2")
+    assert result.code == 5, result.error
+    assert "no answer from ROS's master at http://127.0.0.1:" in result.error
+    assert "waiting for ROS's master" in result.out
+    assert 2.0 <= result.seconds
+
+
+def test_trajectory_client_waits_for_the_driver_no_longer_than_it_says(run, master):
+    result = run("trajectory_client", "--goal", GOAL, "--wait=2", "--node", "/arm")
+    assert result.code == 5, result.error
+    assert "nobody serves the action /arm/follow_joint_trajectory" in result.error
+    assert "waiting for the action /arm/follow_joint_trajectory" in result.out
+
+
+def test_the_time_for_the_whole_run_covers_the_wait_for_the_driver(run, master):
+    result = run("trajectory_client", "--setpoints", "1", "--timeout", "1.5")
+    assert result.code == 5, result.error
+    assert "nobody serves the action /driver/follow_joint_trajectory" in result.error
