@@ -27,4 +27,8 @@ void LaggingAxis::place(double position) {
 
 std::int64_t LaggingAxis::counts() const { return std::llround(position_); }
 
+std::int32_t LaggingAxis::reading() const {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(counts()));
+}
+
 }  // namespace interpolated_motion::emulation

@@ -1,19 +1,8 @@
 #include "implementation.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <iterator>
-
 namespace interpolated_motion::emulation {
+
 namespace {
-
-constexpr std::int64_t kGlobalAddress = 255;
-constexpr std::size_t kLongestAnswer = 64;
-
-double tick_period_ns(const SilverDustParameters& p, double ppm) {
-  return static_cast<double>(p.tick.count()) / (1.0 + ppm * 1e-6);
-}
 
 const SilverDustParameters& validated(const SilverDustParameters& parameters) {
   validate(parameters);
@@ -26,72 +15,63 @@ SilverDust::Implementation::Implementation(transport::VirtualSerialLine& line,
                                            transport::SerialListener& listener,
                                            const SilverDustParameters& parameters, HostTime now)
     : parameters_(validated(parameters)),
-      line_(line),
-      port_(line.add_port(listener)),
-      now_(now),
+      serial_(line, listener, parameters_),
+      clock_(parameters_, now),
       awake_at_(now),
-      epoch_(now),
-      period_ns_(tick_period_ns(parameters_, parameters_.clock_error_ppm)),
-      address_(parameters_.address),
-      group_(parameters_.group),
-      ack_delay_(parameters_.ack_delay),
-      profile_(parameters_),
       queue_(parameters_.queue_depth),
-      interpolation_(parameters_, registers_, queue_, profile_),
-      axis_(parameters_.plant) {
-  text_.reserve(kLongestAnswer);
+      limits_(parameters_),
+      axis_(parameters_.plant),
+      motion_(parameters_, register_file_, queue_, polling_, limits_),
+      electronics_(parameters_, polling_, motion_, program_),
+      registers_(register_file_, motion_, axis_, limits_),
+      program_target_(registers_, motion_, electronics_, polling_),
+      interpreter_(parameters_, polling_, motion_, program_, command_chapters()) {
   restart(now, parameters_.awake_at_start ? now : now + parameters_.boot_time);
-  profile_.place(parameters_.initial_position);
+  motion_.place(parameters_.initial_position);
   axis_.place(parameters_.initial_position);
 }
 
+// What the commands of each chapter work on.
+CommandRouter SilverDust::Implementation::command_chapters() {
+  return CommandRouter(CommunicationCommands(parameters_, serial_), PollingCommands(parameters_, polling_),
+                       StatusCommands(polling_, electronics_, motion_),
+                       RegisterCommands(parameters_, registers_),
+                       MotionCommands(motion_, axis_, program_, electronics_),
+                       InterpolationCommands(parameters_, queue_, motion_, electronics_),
+                       ProtectionCommands(electronics_, limits_), ProgramCommands(program_, motion_));
+}
+
 SilverDustCounters SilverDust::Implementation::counters() const {
-  SilverDustCounters counters = counters_;
-  const InterpolationCounters& interpolation = interpolation_.counters();
+  const InterpolationCounters& interpolation = motion_.interpolation().counters();
+  SilverDustCounters counters;
+  counters.segments_accepted = queue_.accepted();
+  counters.segments_refused_full = queue_.refused();
   counters.segments_executed = interpolation.segments_executed;
   counters.underruns = interpolation.underruns;
   counters.minimum_fill = interpolation.minimum_fill;
+  counters.commands = interpreter_.executed();
+  counters.naks = serial_.naks();
   return counters;
-}
-
-std::int32_t SilverDust::Implementation::position() const {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(axis_.counts()));
 }
 
 // Everything volatile is as after power-up; nothing is heard before `awake_at`.
 void SilverDust::Implementation::restart(HostTime now, HostTime awake_at) {
-  drop_answers(now);
   awake_ = false;
   awake_at_ = awake_at;
-  parser_.reset();
-  address_ = parameters_.address;
-  group_ = parameters_.group;
-  ack_delay_ = parameters_.ack_delay;
-  registers_.clear();
+  serial_.restart(now);
   polling_ = PollingStatus{};
-  latched_status_ = status_bit::kIndexFound | status_bit::kCalculationZero;
-  temperature_ok_ = true;
-  profile_.place(0);
-  axis_.place(0.0);
+  register_file_.clear();
   queue_.clear();
-  interpolation_.abandon();
+  limits_.restart();
+  axis_.place(0.0);
+  motion_.restart();
   program_.stop();
-  motion_ = Motion::None;
-  enabled_ = parameters_.enabled_at_power_up;
-  killed_ = kill_keeps_driver_ = false;
-  kill_enable_ = status_bit::kTemperatureOk;
-  kill_state_ = 0;
-  moving_limit_ = parameters_.moving_error_limit;
-  holding_limit_ = parameters_.holding_error_limit;
-  holding_delay_ = parameters_.holding_delay;
-  holding_countdown_ = 0;
-  largest_error_ = 0;
+  electronics_.restart();
 }
 
 void SilverDust::Implementation::wake_up() {
   awake_ = true;
-  epoch_ = awake_at_ + parameters_.tick_phase;
-  ticks_ = 0;
+  clock_.restart(awake_at_ + parameters_.tick_phase);
 }
 
 void SilverDust::Implementation::power_cycle(HostTime now, HostDuration off) {
@@ -101,108 +81,101 @@ void SilverDust::Implementation::power_cycle(HostTime now, HostDuration off) {
   restart(now, now + dark);
 }
 
-void SilverDust::Implementation::silence(bool silent, HostTime now) {
-  silent_ = silent;
-  parser_.reset();
-  if (silent) drop_answers(now);
-}
-
-void SilverDust::Implementation::drop_answers(HostTime now) {
-  line_.connect(port_, false, now);
-  line_.connect(port_, true, now);
-}
-
-void SilverDust::Implementation::set_clock_error(double ppm) {
-  epoch_ = tick_time(ticks_);
-  ticks_ = 0;
-  period_ns_ = tick_period_ns(parameters_, ppm);
-}
-
-HostTime SilverDust::Implementation::tick_time(std::int64_t tick) const {
-  return epoch_ + HostDuration(std::llround(static_cast<double>(tick) * period_ns_));
-}
-
-std::int64_t SilverDust::Implementation::ticks_until(HostTime now) const {
-  if (now < epoch_) return 0;
-  auto ticks = static_cast<std::int64_t>(static_cast<double>((now - epoch_).count()) / period_ns_);
-  while (tick_time(ticks + 1) <= now) ++ticks;
-  while (ticks > 0 && tick_time(ticks) > now) --ticks;
-  return ticks;
+void SilverDust::Implementation::raise_fault(SilverDustFault fault, HostTime now) {
+  catch_up(now);
+  if (!awake_) return;
+  switch (fault) {
+    case SilverDustFault::OverTemperature:
+      return electronics_.over_temperature();
+    case SilverDustFault::OverVoltage:
+      return electronics_.over_voltage();
+    case SilverDustFault::LowVoltage:
+      return electronics_.low_voltage();
+    case SilverDustFault::MovingError:
+      return electronics_.moving_error();
+    case SilverDustFault::HoldingError:
+      return electronics_.holding_error();
+  }
 }
 
 HostTime SilverDust::Implementation::next_event() const {
   if (!observer_) return kNever;
-  return awake_ ? tick_time(ticks_ + 1) : awake_at_;
+  return awake_ ? clock_.next() : awake_at_;
 }
 
 void SilverDust::Implementation::catch_up(HostTime now) {
   if (!awake_ && awake_at_ <= now) wake_up();
   if (!awake_) return;
-  const std::int64_t due = ticks_until(now);
-  while (ticks_ < due) {
-    if (!observer_ && resting()) {
-      ticks_ = due;
-      return;
-    }
-    ++ticks_;
+  const std::int64_t due = clock_.due(now);
+  while (clock_.ticks() < due) {
+    if (!observer_ && resting()) return clock_.leap(due);
+    clock_.advance();
     tick();
   }
 }
 
 bool SilverDust::Implementation::on_character(char value, HostTime time) {
-  if (silent_) return false;
+  if (serial_.silent()) return false;
   if (!awake_) {
     if (time < awake_at_) return false;
     catch_up(time);
   }
-  const auto packet = parser_.on_character(value);
-  if (parser_.aborted() != aborted_seen_) {
-    aborted_seen_ = parser_.aborted();
-    polling_.raise(polling_bit::kAborted);
-  }
-  if (!packet) return false;
-  on_packet(*packet, time);
-  return true;
+  const auto packet = serial_.on_character(value, polling_);
+  if (packet) on_packet(*packet, time);
+  return packet.has_value();
 }
 
 void SilverDust::Implementation::on_packet(const Packet& packet, HostTime time) {
-  const bool own = packet.address == address_;
-  const bool shared = packet.address == kGlobalAddress || (group_ != 0 && packet.address == group_);
-  if (!own && !shared) return;
+  if (!serial_.obeys(packet)) return;
   catch_up(time);
-  ++counters_.commands;
-  now_ = time;
-  // The answer comes in the settings the command was heard in.
-  const int address = address_;
-  const int delay = ack_delay_;
-  Answer answer = execute(packet);
-  if (!own || answer.kind == Answer::Kind::None) return;
-  if (answer.kind == Answer::Kind::Nak) {
-    ++counters_.naks;
-    answer.echo = static_cast<std::uint16_t>(packet.command);
-  }
-  send(answer, address, time + delay * parameters_.tick + parameters_.turnaround);
+  const SerialInterface::Reply reply = serial_.reply_to(packet, time);
+  const Answer answer = interpreter_.execute(packet);
+  if (answer.kind() == Answer::Kind::Restart) return restart(time, time + parameters_.boot_time);
+  serial_.send(answer, reply);
 }
 
-void SilverDust::Implementation::send(const Answer& answer, int address, HostTime time) {
-  text_.clear();
-  const auto out = std::back_inserter(text_);
-  switch (answer.kind) {
-    case Answer::Kind::None:
-      return;
-    case Answer::Kind::Acknowledge:
-      fmt::format_to(out, "* {:02X}", address);
-      break;
-    case Answer::Kind::Data:
-      fmt::format_to(out, "# {:02X} {:04X}", address, answer.echo);
-      for (std::size_t i = 0; i < answer.word_count; ++i) fmt::format_to(out, " {:04X}", answer.words[i]);
-      break;
-    case Answer::Kind::Nak:
-      fmt::format_to(out, "! {:02X} {:04X} {:04X}", address, answer.echo, static_cast<unsigned>(answer.code));
-      break;
+void SilverDust::Implementation::tick() {
+  if (program_.running()) program_.tick(program_target_);
+  const bool interpolating = motion_.interpolating();
+  motion_.tick();
+  if (electronics_.enabled()) {
+    axis_.follow(motion_.target().position());
+  } else {
+    axis_.stand();
   }
-  text_.push_back('\r');
-  line_.send(port_, text_, time);
+  check_position_error();
+  if (observer_) observe(interpolating);
+}
+
+void SilverDust::Implementation::check_position_error() {
+  const std::int64_t error = motion_.target().counts() - axis_.counts();
+  limits_.record(error);
+  if (!electronics_.enabled()) return;
+  switch (limits_.exceeded(error, motion_.active())) {
+    case ErrorLimits::Excess::None:
+      return;
+    case ErrorLimits::Excess::Moving:
+      return electronics_.moving_error();
+    case ErrorLimits::Excess::Holding:
+      return electronics_.holding_error();
+  }
+}
+
+// A tick would change nothing.
+bool SilverDust::Implementation::resting() const {
+  if (motion_.active() || program_.running() || limits_.waiting()) return false;
+  return !electronics_.enabled() || axis_.settled(motion_.target().position());
+}
+
+void SilverDust::Implementation::observe(bool interpolating) const {
+  SilverDustSample sample;
+  sample.time = clock_.last();
+  sample.ticks_since_start = motion_.interpolation().ticks();
+  sample.interpolating = interpolating;
+  sample.demand = motion_.target().position();
+  sample.velocity = motion_.target().counts_per_tick();
+  sample.actual = position();
+  observer_(sample);
 }
 
 }  // namespace interpolated_motion::emulation

@@ -35,7 +35,6 @@ std::optional<Packet> PacketParser::on_character(char value) {
 }
 
 void PacketParser::begin() {
-  if (inside_) ++aborted_;
   packet_ = Packet{};
   inside_ = true;
   numbers_ = 0;

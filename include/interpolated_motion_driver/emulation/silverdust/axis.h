@@ -11,13 +11,16 @@ class LaggingAxis {
  public:
   explicit LaggingAxis(const SilverDustPlant& parameters);
 
-  /// One servo tick under control.
+  /// One servo tick under control. `target`: counts, not wrapped.
   void follow(double target);
 
   /// One servo tick without: the axis stands.
   void stand() { velocity_ = 0.0; }
 
+  /// Puts it at `position`, counts, at rest.
   void place(double position);
+
+  /// True: it stands, whatever the target.
   void set_stalled(bool stalled) { stalled_ = stalled; }
 
   /// Following `target`, which stands, changes nothing any more.
@@ -25,7 +28,8 @@ class LaggingAxis {
 
   double position() const { return position_; }  ///< counts, not wrapped
   double velocity() const { return velocity_; }  ///< counts/tick
-  std::int64_t counts() const;                   ///< nearest whole count
+  std::int64_t counts() const;                   ///< nearest whole count, not wrapped
+  std::int32_t reading() const;                  ///< counts, as 32 bits of the encoder's counter show them
 
  private:
   double gain_;

@@ -49,22 +49,36 @@ enum class CommandClass {
   Program,    ///< D and E: only while neither a program nor a motion runs, else NAK 2
 };
 
+/// Chapter of the Command Reference a command belongs to: which part of the drive it is about.
+enum class CommandChapter {
+  Communication,  ///< identity, ACK delay, revision, restart
+  Polling,        ///< the polling status word
+  Status,         ///< the internal status word and the I/O word
+  Registers,      ///< data registers
+  Motion,         ///< ordinary motions and the target position
+  Interpolation,  ///< interpolated motion
+  Protection,     ///< the motor's driver, kill motor conditions, limits
+  Program,        ///< the standalone program
+};
+
+/// A row of the table of commands.
 struct CommandInfo {
   Command command;
+  CommandChapter chapter;
   CommandClass command_class;
   std::size_t minimum_parameters;
   std::size_t maximum_parameters;
 };
 
-/// Null when the drive does not know the number.
+/// The row of a command number; null when the drive does not know it.
 const CommandInfo* find_command(std::int64_t number);
 
-/// Codes of a NAK.
+/// Codes of a NAK, as far as this drive says them.
 enum class NakCode : std::uint16_t {
-  BadCommand = 1,
-  Busy = 2,
-  BadFormat = 5,
-  BufferFull = 6,
+  BadCommand = 1,  ///< a number the drive does not know
+  Busy = 2,        ///< a program class command while a program or a motion runs
+  BadFormat = 5,   ///< something else than numbers, or a wrong count of them
+  BufferFull = 6,  ///< IMW while as many segments wait as the queue can hold
 };
 
 }  // namespace interpolated_motion::emulation

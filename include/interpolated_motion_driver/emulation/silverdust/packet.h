@@ -7,7 +7,8 @@
 
 namespace interpolated_motion::emulation {
 
-/// A packet of the 8-bit ASCII protocol, `@address command parameter ... CR`.
+/// A packet of the 8-bit ASCII protocol, `@address command parameter ... CR`, all numbers decimal ("Serial
+/// Communications", QCI-TD053).
 struct Packet {
   static constexpr std::size_t kMaximumParameters = 15;
 
@@ -23,12 +24,13 @@ struct Packet {
 /// anywhere; everything outside a packet (the answers of other drives) is passed over.
 class PacketParser {
  public:
-  /// The packet that this character, a CR, has completed.
+  /// Whether this character, an '@', comes in the midst of a packet, which is lost then.
+  bool cuts_short(char value) const { return inside_ && value == '@'; }
+
+  /// The packet that this character, a CR, has completed; nothing after any other character.
   std::optional<Packet> on_character(char value);
 
-  /// Packets cut short by an '@' so far.
-  std::uint64_t aborted() const { return aborted_; }
-
+  /// Forgets the packet that is under way.
   void reset() { inside_ = false; }
 
  private:
@@ -44,7 +46,6 @@ class PacketParser {
   bool negative_ = false;
   bool has_digits_ = false;
   std::int64_t value_ = 0;
-  std::uint64_t aborted_ = 0;
 };
 
 }  // namespace interpolated_motion::emulation

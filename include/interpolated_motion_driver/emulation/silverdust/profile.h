@@ -21,9 +21,11 @@ struct ProfileScale {
   /// Throws std::invalid_argument when the ratios do not fit.
   explicit ProfileScale(const SilverDustParameters& parameters);
 
-  /// Change of the velocity in one tick, in fractions. `full_scale`: rpm per tick of 2^31.
+  /// Change of the velocity in one tick, in fractions. `acceleration`: >= 0; `full_scale`: rpm per tick of
+  /// 2^31.
   std::int64_t step(std::int64_t acceleration, int full_scale) const;
 
+  /// A velocity of `units` (2^31: `velocity_full_scale_rpm`) in fractions.
   std::int64_t velocity(std::int64_t units) const { return units * subdivision; }
 
  private:

@@ -31,26 +31,24 @@ struct ProgramStep {
   static ProgramStep wait_taken() { return {Kind::WaitSegmentTaken, 0, 0, 0}; }
 };
 
-/// What a program works on.
-class ProgramTarget {
- public:
-  virtual ~ProgramTarget() = default;
-  virtual void program_write(std::int64_t reg, std::int32_t value) = 0;
-  virtual std::int32_t program_read(std::int64_t reg) const = 0;
-  virtual void program_start_interpolation() = 0;
-};
+class ProgramTarget;
 
-/// A stored program; it runs beside a motion, one line a servo tick.
+/// The standalone program of the drive ("SilverLode User Manual", standalone operation; "Interpolated
+/// Motion", register based queue); it runs beside a motion, one line a servo tick.
 class StoredProgram {
  public:
+  /// Replaces the program; none runs after that. CLP loads an empty one.
   void load(std::vector<ProgramStep> steps) {
     steps_ = std::move(steps);
     running_ = false;
   }
+
+  /// RUN: from the first line on, in the next tick. An empty program does not run.
   void run() {
     next_ = 0;
     running_ = !steps_.empty();
   }
+
   void stop() { running_ = false; }
   bool running() const { return running_; }
 

@@ -1,4 +1,4 @@
-#include "interpolated_motion_driver/emulation/silverdust/interpolation.h"
+#include "interpolated_motion_driver/emulation/silverdust/interpolated_move.h"
 
 #include <algorithm>
 
@@ -14,27 +14,6 @@ constexpr std::uint32_t kLowWord = 0x0000FFFF;
 constexpr std::int64_t kSegmentRegisters = 4;
 
 }  // namespace
-
-bool SegmentQueue::push(const VelocitySegment& segment) {
-  if (size_ == ring_.size()) return false;
-  ring_[(head_ + size_) % ring_.size()] = segment;
-  ++size_;
-  return true;
-}
-
-VelocitySegment SegmentQueue::pop() {
-  const VelocitySegment segment = ring_[head_];
-  head_ = (head_ + 1) % ring_.size();
-  --size_;
-  return segment;
-}
-
-bool SegmentQueue::holds_end() const {
-  for (std::size_t i = 0; i < size_; ++i) {
-    if (ring_[(head_ + i) % ring_.size()].time == 0) return true;
-  }
-  return false;
-}
 
 InterpolatedMove::InterpolatedMove(const SilverDustParameters& parameters, RegisterFile& registers,
                                    SegmentQueue& queue, ProfileGenerator& profile)
@@ -111,9 +90,18 @@ void InterpolatedMove::execute(const VelocitySegment& segment) {
 
 void InterpolatedMove::stop() {
   ++counters_.underruns;
-  const std::int32_t deceleration = std::max(registers_.get(kDefaultDeceleration), 0);
-  profile_.brake(profile_.scale().step(deceleration, full_scale_));
+  profile_.brake(default_step());
   phase_ = profile_.velocity() == 0 ? Phase::Idle : Phase::Stopping;
+}
+
+std::int64_t InterpolatedMove::step() const {
+  const std::int32_t acceleration = registers_.get(kProfileAcceleration);
+  return acceleration > 0 ? profile_.scale().step(acceleration, full_scale_) : default_step();
+}
+
+std::int64_t InterpolatedMove::default_step() const {
+  const std::int32_t deceleration = std::max(registers_.get(kDefaultDeceleration), 0);
+  return profile_.scale().step(deceleration, full_scale_);
 }
 
 }  // namespace interpolated_motion::emulation

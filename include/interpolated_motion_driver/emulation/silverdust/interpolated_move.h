@@ -1,45 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust/profile.h"
 #include "interpolated_motion_driver/emulation/silverdust/registers.h"
+#include "interpolated_motion_driver/emulation/silverdust/segment_queue.h"
 
 namespace interpolated_motion::emulation {
-
-/// One velocity segment as the drive holds it, in the order of its four registers.
-struct VelocitySegment {
-  std::int32_t time = 0;          ///< ticks; 0: last
-  std::int32_t position = 0;      ///< counts
-  std::int32_t acceleration = 0;  ///< 2^31 is the full scale; 0: constant velocity
-  std::int32_t velocity = 0;      ///< 2^31 is the full scale
-};
-
-/// The FIFO behind IMQ and IMW.
-class SegmentQueue {
- public:
-  /// `depth`: segments that can wait, not counting the one that is executed.
-  explicit SegmentQueue(int depth) : ring_(static_cast<std::size_t>(depth)) {}
-
-  /// False, and nothing is taken, when the queue is full.
-  bool push(const VelocitySegment& segment);
-
-  /// The queue must not be empty.
-  VelocitySegment pop();
-
-  int size() const { return static_cast<int>(size_); }
-
-  /// Whether a segment with time 0 is waiting.
-  bool holds_end() const;
-
-  void clear() { size_ = 0; }
-
- private:
-  std::vector<VelocitySegment> ring_;
-  std::size_t head_ = 0;
-  std::size_t size_ = 0;
-};
 
 /// What the interpolated move operation has counted.
 struct InterpolationCounters {
@@ -49,16 +17,17 @@ struct InterpolationCounters {
                           ///< and before the one that ends the operation was queued; -1: none was due so far
 };
 
-/// The IMS operation ("Interpolated Motion"): each tick the profile generator makes one step and register 18
-/// counts down; at zero the next segment goes from the queue, or from the four user registers that register
-/// 17 names, to registers 18 and 20..23. A segment with time 0 ends the operation after one more tick. When
-/// there is no fresh segment, register 19 (in the acceleration scale of IMS; 0 or less: at once) brings the
-/// axis to rest, which ends the operation too.
+/// The IMS operation ("Interpolated Motion", QCI-TD044): each tick the profile generator makes one step and
+/// register 18 counts down; at zero the next segment goes from the queue, or from the four user registers
+/// that register 17 names, to registers 18 and 20..23. A segment with time 0 ends the operation after one
+/// more tick. When there is no fresh segment, register 19 (in the acceleration scale of IMS; 0 or less: at
+/// once) brings the axis to rest, which ends the operation too.
 ///
 /// The document says that the operation ends "instantly", not what becomes of a speed that is left: here the
 /// target stands at once.
 class InterpolatedMove {
  public:
+  /// Works on what it is given, which must outlive it.
   InterpolatedMove(const SilverDustParameters& parameters, RegisterFile& registers, SegmentQueue& queue,
                    ProfileGenerator& profile);
 
@@ -78,6 +47,10 @@ class InterpolatedMove {
   /// Ticks since the one that loaded the first segment; -1 before that. Keeps its last value.
   std::int64_t ticks() const { return ticks_; }
 
+  /// Change of velocity per tick in the segment that is executed, fractions of a velocity unit; where its
+  /// velocity is constant, that of register 19.
+  std::int64_t step() const;
+
   const InterpolationCounters& counters() const { return counters_; }
 
  private:
@@ -89,6 +62,7 @@ class InterpolatedMove {
   bool fetch_registers(std::int64_t first, VelocitySegment& segment);
   void execute(const VelocitySegment& segment);
   void stop();
+  std::int64_t default_step() const;
 
   int full_scale_;
   RegisterFile& registers_;

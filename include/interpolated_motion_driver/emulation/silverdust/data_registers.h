@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "interpolated_motion_driver/emulation/silverdust/axis.h"
+#include "interpolated_motion_driver/emulation/silverdust/error_limits.h"
+#include "interpolated_motion_driver/emulation/silverdust/motion_control.h"
+#include "interpolated_motion_driver/emulation/silverdust/registers.h"
+
+namespace interpolated_motion::emulation {
+
+/// The data registers as hosts and standalone programs see them (Command Reference, RRG, WRI, WRP): some show
+/// what the drive does, others must not be written while it uses them.
+class DataRegisters {
+ public:
+  /// Shows what it is given, which must outlive it.
+  DataRegisters(RegisterFile& registers, const MotionControl& motion, const LaggingAxis& axis,
+                const ErrorLimits& limits)
+      : registers_(registers), motion_(motion), axis_(axis), limits_(limits) {}
+
+  /// Register `number`, which must exist (RegisterFile).
+  std::int32_t read(std::int64_t number) const;
+
+  /// Writes register `number`, which must be writable (RegisterFile). False, and nothing is written, when an
+  /// IMS operation uses it ("Interpolated Motion": registers 18 and 20..24).
+  bool write(std::int64_t number, std::int32_t value);
+
+ private:
+  std::int32_t position_error() const;
+  std::int32_t velocity() const;
+
+  RegisterFile& registers_;
+  const MotionControl& motion_;
+  const LaggingAxis& axis_;
+  const ErrorLimits& limits_;
+};
+
+}  // namespace interpolated_motion::emulation
