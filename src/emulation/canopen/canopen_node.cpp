@@ -8,30 +8,26 @@ namespace {
 // Function codes of the predefined connection set (CiA 301).
 constexpr std::uint32_t kNmt = 0x000;
 constexpr std::uint32_t kSync = 0x080;
-constexpr std::uint32_t kSdoResponse = 0x580;
-constexpr std::uint32_t kSdoRequest = 0x600;
 constexpr std::uint32_t kErrorControl = 0x700;
 
-constexpr std::int64_t kInvalidCobId = std::int64_t{1} << 31;
 constexpr std::uint16_t kConnectionError = 0x8130;
-
-constexpr std::size_t kResponses = 32;
-// Segments of a block upload sent in one sample: leaves room in the transmit queue for PDOs.
-constexpr int kSegmentsPerSample = 8;
+constexpr std::uint16_t kPdoLengthError = 0x8210;
 
 }  // namespace
 
 CanopenNode::CanopenNode(transport::VirtualCanBus& bus, transport::CanListener& listener,
                          const NodeSettings& settings, ObjectDictionary& objects, HostTime now)
     : settings_(settings),
-      bus_(bus),
-      port_(bus.add_port(listener)),
       objects_(objects),
       now_(now),
       power_event_(now),
+      port_(bus, listener),
       clock_(settings.clock, now),
-      sdo_(*this),
-      pdo_(objects, settings.pdo_setup_only_pre_operational, *this) {
+      emergencies_(objects, nmt_, port_),
+      pdo_(objects, settings.pdo_setup_only_pre_operational, *this),
+      communication_(objects, nmt_, pdo_, emergencies_, clock_),
+      access_(objects, settings.device_name, communication_, *this),
+      sdo_(access_, port_, settings.node_id, settings.sdo_response_time) {
   power_up(now);
 }
 
@@ -39,49 +35,33 @@ void CanopenNode::power_up(HostTime now) {
   power_ = Power::Booting;
   power_event_ = now + settings_.boot_time;
   nmt_.restart();
-  sdo_.reset();
-  responses_.clear();
-  update_connection(now);
+  sdo_.restart();
+  port_.set_powered(false, now);
 }
 
 void CanopenNode::finish_boot(HostTime now) {
   power_ = Power::On;
   clock_.restart(now + settings_.sample_phase);
-  errors_ = ErrorStore();
+  emergencies_.restart();
   objects_.restore(initial_values());
   nmt_.boot();
-  apply_communication();
-  publish_errors();
+  communication_.apply();
+  emergencies_.publish();
   booted();
   publish_status();
-  update_connection(now);
+  port_.set_powered(true, now);
   send_state(static_cast<std::uint8_t>(NmtState::BootUp));
 }
-
-void CanopenNode::update_connection(HostTime now) { bus_.connect(port_, on() && !silent_, now); }
 
 void CanopenNode::power_cycle(HostTime now, HostDuration off) {
   power_ = Power::Off;
   power_event_ = off > kNever - now ? kNever : now + off;
   powered_off();
-  update_connection(now);
-}
-
-void CanopenNode::silence(bool silent, HostTime now) {
-  silent_ = silent;
-  update_connection(now);
-}
-
-void CanopenNode::set_clock_error(double ppm) { clock_.set_error(ppm); }
-
-std::int64_t CanopenNode::milliseconds() const {
-  return clock_.samples() * settings_.clock.sample_period / std::chrono::milliseconds(1);
+  port_.set_powered(false, now);
 }
 
 HostTime CanopenNode::next_event() const {
-  if (!on()) return power_event_;
-  const HostTime sample = clock_.next_sample();
-  return responses_.empty() ? sample : std::min(sample, responses_.front().due);
+  return on() ? std::min(clock_.next_sample(), sdo_.next_response()) : power_event_;
 }
 
 void CanopenNode::process(HostTime now) {
@@ -89,10 +69,7 @@ void CanopenNode::process(HostTime now) {
   if (power_ == Power::Off && power_event_ <= now) power_up(power_event_);
   if (power_ == Power::Booting && power_event_ <= now) finish_boot(power_event_);
   if (!on()) return;
-  while (!responses_.empty() && responses_.front().due <= now) {
-    transmit(responses_.front().frame);
-    responses_.pop_front();
-  }
+  sdo_.send_due(now);
   while (on() && clock_.next_sample() <= now) {
     now_ = clock_.next_sample();
     clock_.take_sample();
@@ -101,31 +78,28 @@ void CanopenNode::process(HostTime now) {
 }
 
 void CanopenNode::run_sample() {
-  if (!nmt_.communicating()) {
-    nmt_.boot();
-    apply_communication();
-    send_state(static_cast<std::uint8_t>(NmtState::BootUp));
-  }
+  if (!nmt_.communicating()) boot_nmt();
   watch_connections();
   sample();
   publish_status();
-  if (nmt_.heartbeat_due(milliseconds())) send_state(static_cast<std::uint8_t>(nmt_.state()));
-  if (nmt_.operational()) pdo_.tick(milliseconds() * 10);
-  pump_segments();
+  const std::int64_t now_ms = clock_.milliseconds();
+  if (nmt_.heartbeat_due(now_ms)) send_state(static_cast<std::uint8_t>(nmt_.state()));
+  if (nmt_.operational()) pdo_.tick(now_ms * 10);
+  if (nmt_.serves_sdo()) sdo_.pump_segments(now_);
+}
+
+// After a reset of the communication.
+void CanopenNode::boot_nmt() {
+  nmt_.boot();
+  communication_.apply();
+  send_state(static_cast<std::uint8_t>(NmtState::BootUp));
 }
 
 void CanopenNode::watch_connections() {
-  if (!nmt_.connection_lost(milliseconds())) return;
+  if (!nmt_.connection_lost(clock_.milliseconds())) return;
   emergency(kConnectionError, settings_.communication_error_register, now_);
   if (settings_.pre_operational_on_heartbeat_loss && nmt_.operational()) nmt_.enter_pre_operational();
   connection_lost();
-}
-
-bool CanopenNode::transmit(const canopen::Frame& frame) {
-  if (silent_) return true;
-  const bool taken = bus_.send(port_, frame, now_);
-  if (!taken) ++lost_frames_;
-  return taken;
 }
 
 void CanopenNode::send_state(std::uint8_t state) {
@@ -133,52 +107,37 @@ void CanopenNode::send_state(std::uint8_t state) {
   frame.id = kErrorControl + settings_.node_id;
   frame.length = 1;
   frame.data[0] = state;
-  transmit(frame);
-}
-
-void CanopenNode::send_emergency_bytes(const EmergencyBytes& bytes) {
-  const std::int64_t cob_id = value(0x1014, 0);
-  const bool silenced = nmt_.state() == NmtState::Stopped || !nmt_.communicating();
-  if (!on() || silenced || (cob_id & kInvalidCobId) != 0) return;
-  canopen::Frame frame;
-  frame.id = static_cast<std::uint32_t>(cob_id & 0x7FF);
-  frame.length = 8;
-  frame.data = bytes;
-  transmit(frame);
+  port_.send(frame, now_);
 }
 
 void CanopenNode::emergency(std::uint16_t code, std::uint8_t error_register, HostTime now) {
   if (!on()) return;
   now_ = std::max(now_, now);
-  ++emergencies_;
-  send_emergency_bytes(errors_.raise(code, error_register));
-  publish_errors();
-}
-
-void CanopenNode::reset_errors() {
-  send_emergency_bytes(errors_.reset());
-  publish_errors();
+  emergencies_.raise(code, error_register, now_);
 }
 
 void CanopenNode::on_frame(const canopen::Frame& frame, HostTime time) {
-  if (!on() || silent_ || frame.extended || !nmt_.communicating()) return;
+  if (!on() || port_.silent() || frame.extended || !nmt_.communicating()) return;
   now_ = time;
   if (frame.id == kNmt) return on_nmt(frame);
-  if (frame.id == kSdoRequest + settings_.node_id) return on_sdo(frame);
+  if (frame.id == sdo_.request_id()) {
+    if (nmt_.serves_sdo()) sdo_.on_request(frame, time);
+    return;
+  }
   if (frame.id > kErrorControl && frame.id <= kErrorControl + 127) return on_error_control(frame);
-  if (!nmt_.operational()) return;
+  if (nmt_.operational()) on_pdo(frame);
+}
+
+void CanopenNode::on_pdo(const canopen::Frame& frame) {
   if (frame.id == kSync) {
-    if (!frame.remote) on_sync(time);
+    if (frame.remote) return;
+    clock_.latch(now_);
+    pdo_.on_sync();
   } else if (frame.remote) {
     pdo_.on_remote_request(frame);
   } else {
     pdo_.on_frame(frame);
   }
-}
-
-void CanopenNode::on_sync(HostTime time) {
-  clock_.latch(time);
-  pdo_.on_sync();
 }
 
 void CanopenNode::on_nmt(const canopen::Frame& frame) {
@@ -188,63 +147,42 @@ void CanopenNode::on_nmt(const canopen::Frame& frame) {
     case NmtAction::None:
       break;
     case NmtAction::Entered:
-      sdo_.reset();
-      if (nmt_.operational()) enter_operational();
+      entered_state();
       break;
     case NmtAction::ResetNode:
       return power_up(now_);
     case NmtAction::ResetCommunication:
-      nmt_.restart();
-      sdo_.reset();
-      responses_.clear();
-      restore_communication();
+      reset_communication();
       break;
   }
   publish_status();
 }
 
-void CanopenNode::enter_operational() {
+void CanopenNode::entered_state() {
+  sdo_.reset();
+  if (!nmt_.operational()) return;
   clock_.forget_reference();
   pdo_.start();
 }
 
-bool CanopenNode::sdo_allowed() const {
-  return nmt_.state() == NmtState::PreOperational || nmt_.state() == NmtState::Operational;
-}
-
-void CanopenNode::on_sdo(const canopen::Frame& frame) {
-  if (frame.remote || frame.length != 8 || !sdo_allowed()) return;
-  if (const auto response = sdo_.on_request(frame.data)) respond(*response);
-}
-
-void CanopenNode::respond(const SdoServer::Bytes& bytes) {
-  if (responses_.size() >= kResponses) {
-    ++lost_frames_;
-    return;
-  }
-  canopen::Frame frame;
-  frame.id = kSdoResponse + settings_.node_id;
-  frame.length = 8;
-  frame.data = bytes;
-  responses_.push_back({now_ + settings_.sdo_response_time, frame});
-}
-
-void CanopenNode::pump_segments() {
-  if (!sdo_allowed()) return;
-  for (int i = 0; i < kSegmentsPerSample && bus_.free_slots(port_) > 1; ++i) {
-    const auto segment = sdo_.next_segment();
-    if (!segment) return;
-    respond(*segment);
-  }
+void CanopenNode::reset_communication() {
+  nmt_.restart();
+  sdo_.restart();
+  communication_.restore(initial_values());
 }
 
 void CanopenNode::on_error_control(const canopen::Frame& frame) {
   const auto node = static_cast<std::uint8_t>(frame.id - kErrorControl);
+  const std::int64_t now_ms = clock_.milliseconds();
   if (!frame.remote) {
-    if (frame.length == 1 && nmt_.on_heartbeat(node, milliseconds())) heartbeat_heard();
+    if (frame.length == 1 && nmt_.on_heartbeat(node, now_ms)) heartbeat_heard();
   } else if (node == settings_.node_id) {
-    send_state(nmt_.guard(milliseconds()));
+    send_state(nmt_.guard(now_ms));
   }
+}
+
+void CanopenNode::pdo_too_short() {
+  emergency(kPdoLengthError, settings_.communication_error_register, now_);
 }
 
 }  // namespace interpolated_motion::emulation

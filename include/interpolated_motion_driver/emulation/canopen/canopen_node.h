@@ -1,18 +1,17 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <optional>
 #include <string>
 
-#include "interpolated_motion_driver/emulation/canopen/error_store.h"
+#include "interpolated_motion_driver/emulation/canopen/communication_objects.h"
+#include "interpolated_motion_driver/emulation/canopen/emergency_producer.h"
 #include "interpolated_motion_driver/emulation/canopen/motion_clock.h"
 #include "interpolated_motion_driver/emulation/canopen/nmt_slave.h"
+#include "interpolated_motion_driver/emulation/canopen/node_port.h"
+#include "interpolated_motion_driver/emulation/canopen/object_access.h"
 #include "interpolated_motion_driver/emulation/canopen/object_dictionary.h"
 #include "interpolated_motion_driver/emulation/canopen/pdo_engine.h"
-#include "interpolated_motion_driver/emulation/canopen/sdo_server.h"
+#include "interpolated_motion_driver/emulation/canopen/sdo_channel.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -33,34 +32,45 @@ struct NodeSettings {
 
 /// The CANopen side of an emulated drive (CiA 301): power and boot, own crystal, NMT, SDO, PDO, EMCY,
 /// heartbeat and node guarding, and the objects 0x1000..0x1FFF. What the drive does beyond that, it does in
-/// the functions a derived class has to give.
-class CanopenNode : private SdoObjects, private PdoOwner {
+/// the functions a derived class has to give, those of ObjectOwner included.
+class CanopenNode : private ObjectOwner, private PdoOwner {
  public:
   ~CanopenNode() override = default;
   CanopenNode(const CanopenNode&) = delete;
   CanopenNode& operator=(const CanopenNode&) = delete;
 
+  /// Switches the supply off at `now`, and on again after `off`.
   void power_cycle(HostTime now, HostDuration off);
-  void silence(bool silent, HostTime now);
-  void set_clock_error(double ppm);
-  /// Sends an EMCY message without any other reaction.
+
+  /// While silent the node neither hears nor says anything, but goes on moving.
+  void silence(bool silent, HostTime now) { port_.set_silent(silent, now); }
+
+  /// The crystal's error from the next sample on, ppm; > 0: fast.
+  void set_clock_error(double ppm) { clock_.set_error(ppm); }
+
+  /// Sends an EMCY message without any other reaction; nothing while the node has not booted.
   void emergency(std::uint16_t code, std::uint8_t error_register, HostTime now);
 
+  /// Time of the next thing the node does by itself.
   HostTime next_event() const;
+
+  /// Does everything that is due at `now`.
   void process(HostTime now);
+
+  /// A frame on the bus, whose last bit was at `time`.
   void on_frame(const canopen::Frame& frame, HostTime time);
 
-  std::uint64_t emergencies() const { return emergencies_; }
-  std::uint64_t lost_frames() const { return lost_frames_; }
+  /// EMCY messages there have been, and frames that were lost because the transmit queue was full.
+  std::uint64_t emergencies() const { return emergencies_.raised(); }
+  std::uint64_t lost_frames() const { return port_.lost(); }
 
  protected:
   /// `objects` is of the derived class; it is not touched before the node has booted.
   CanopenNode(transport::VirtualCanBus& bus, transport::CanListener& listener, const NodeSettings& settings,
               ObjectDictionary& objects, HostTime now);
 
-  /// What the objects are after power-up or a reset; of the latter NMT resets those below 0x2000 alone, if
-  /// it is of the communication.
-  virtual ObjectDictionary::Values initial_values() const { return objects_.defaults(); }
+  /// The defaults of the objects, unless a derived class stores others.
+  ObjectDictionary::Values initial_values() const override { return objects_.defaults(); }
   /// Booted: every volatile state begins anew. The objects have their initial values.
   virtual void booted() = 0;
   /// The supply has been switched off.
@@ -71,94 +81,58 @@ class CanopenNode : private SdoObjects, private PdoOwner {
   virtual void connection_lost() = 0;
   /// A heartbeat of a watched node has come.
   virtual void heartbeat_heard() {}
-  /// Objects derived from the state are to be brought up to date.
-  virtual void publish_status() = 0;
-  /// Rules for writing an object that go beyond type and range and beyond what CiA 301 says of PDOs and
-  /// errors.
-  virtual AbortCode check_value(const ObjectEntry& entry, std::int64_t value) const = 0;
-  /// A value that goes elsewhere than into its object: what becomes of it.
-  virtual std::optional<AbortCode> divert(const ObjectEntry& /*entry*/, std::uint64_t /*raw*/) {
-    return std::nullopt;
-  }
-  /// An object has been written that means nothing to the node itself.
-  virtual void written(const ObjectEntry& entry, std::int64_t value) = 0;
 
+  /// Powered and booted.
   bool on() const { return power_ == Power::On; }
+
+  /// Time of what is being done.
   HostTime now() const { return now_; }
+
+  /// NMT state.
   bool operational() const { return nmt_.operational(); }
-  bool has_errors() const { return errors_.any(); }
 
   MotionClock& clock() { return clock_; }
   /// Now on the node's own clock, in samples since it booted.
   double own_time() const { return clock_.samples_at(now_); }
 
   /// Error reset: the EMCY message says so.
-  void reset_errors();
+  void reset_errors() { emergencies_.reset(now_); }
   /// PDO parameters have been changed by other ways than writing them.
   void configure_pdos() { pdo_.configure(); }
 
  private:
   enum class Power { Off, Booting, On };
 
-  struct Response {
-    HostTime due{};
-    canopen::Frame frame;
-  };
-
-  // canopen_node.cpp
   void power_up(HostTime now);
   void finish_boot(HostTime now);
-  void update_connection(HostTime now);
+  void boot_nmt();
   void run_sample();
   void watch_connections();
-  std::int64_t milliseconds() const;
-  bool transmit(const canopen::Frame& frame);
   void send_state(std::uint8_t state);
-  void send_emergency_bytes(const EmergencyBytes& bytes);
-  void on_sync(HostTime time);
   void on_nmt(const canopen::Frame& frame);
-  void enter_operational();
-  void on_sdo(const canopen::Frame& frame);
+  void entered_state();
+  void reset_communication();
+  void on_pdo(const canopen::Frame& frame);
   void on_error_control(const canopen::Frame& frame);
-  void respond(const SdoServer::Bytes& bytes);
-  void pump_segments();
-  bool sdo_allowed() const;
 
-  // canopen_node_objects.cpp
-  AbortCode sdo_read(std::uint16_t index, std::uint8_t subindex, std::array<std::uint8_t, kSdoCapacity>& data,
-                     std::size_t& size) override;
-  AbortCode sdo_writable(std::uint16_t index, std::uint8_t subindex, std::size_t& object_size) override;
-  AbortCode sdo_write(std::uint16_t index, std::uint8_t subindex, const std::uint8_t* data,
-                      std::size_t size) override;
-  void pdo_write(ObjectDictionary::Slot slot, std::uint64_t raw) override;
+  void pdo_write(ObjectDictionary::Slot slot, std::uint64_t raw) override { access_.pdo_write(slot, raw); }
   void pdo_too_short() override;
-  bool pdo_send(const canopen::Frame& frame) override;
-  AbortCode write(ObjectDictionary::Slot slot, std::size_t size, std::uint64_t raw);
-  bool communication_written(const ObjectEntry& entry, std::int64_t value);
-  void restore_communication();
-  void apply_communication();
-  void publish_errors();
-  std::int64_t value(std::uint16_t index, std::uint8_t subindex) const;
-  void set(std::uint16_t index, std::uint8_t subindex, std::int64_t value);
+  bool pdo_send(const canopen::Frame& frame) override { return port_.send(frame, now_); }
 
   const NodeSettings settings_;
-  transport::VirtualCanBus& bus_;
-  int port_;
   ObjectDictionary& objects_;
   HostTime now_;
-
   Power power_ = Power::Off;
   HostTime power_event_;
-  bool silent_ = false;
-  MotionClock clock_;
 
-  SdoServer sdo_;
+  NodePort port_;
+  MotionClock clock_;
   NmtSlave nmt_;
+  EmergencyProducer emergencies_;
   PdoEngine pdo_;
-  ErrorStore errors_;
-  std::deque<Response> responses_;
-  std::uint64_t emergencies_ = 0;
-  std::uint64_t lost_frames_ = 0;
+  CommunicationObjects communication_;
+  ObjectAccess access_;
+  SdoChannel sdo_;
 };
 
 }  // namespace interpolated_motion::emulation

@@ -33,7 +33,11 @@ class MotionClock {
 
   /// Samples taken since power-up.
   std::int64_t samples() const { return samples_; }
-  /// The same between samples: at each sample the number of it, the first being 1.
+  /// Whole milliseconds of the nominal period in them.
+  std::int64_t milliseconds() const {
+    return samples_ * settings_.sample_period / std::chrono::milliseconds(1);
+  }
+  /// The samples with their fraction between two of them: at each sample the number of it, the first being 1.
   double samples_at(HostTime when) const;
 
   /// When the next sample is due.

@@ -25,6 +25,7 @@ class NmtSlave {
   NmtState state() const { return state_; }
   bool operational() const { return state_ == NmtState::Operational; }
   bool communicating() const { return state_ != NmtState::BootUp; }
+  bool serves_sdo() const { return state_ == NmtState::PreOperational || operational(); }
 
   /// Initialisation begins: nothing is sent or heard until boot().
   void restart();

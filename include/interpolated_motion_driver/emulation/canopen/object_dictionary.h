@@ -36,6 +36,12 @@ class ObjectDictionary {
   std::int64_t get(Slot slot) const { return values_[slot]; }
   void set(Slot slot, std::int64_t value) { values_[slot] = value; }
 
+  /// The same for an object that exists.
+  std::int64_t get(std::uint16_t index, std::uint8_t subindex) const { return get(find(index, subindex)); }
+  void set(std::uint16_t index, std::uint8_t subindex, std::int64_t value) {
+    set(find(index, subindex), value);
+  }
+
   /// The low bytes of the value as they go on the wire.
   std::uint64_t raw(Slot slot) const;
 
