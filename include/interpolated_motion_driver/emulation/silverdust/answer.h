@@ -25,6 +25,7 @@ class Answer {
   /// An Acknowledge.
   Answer() = default;
 
+  /// The other kinds.
   static Answer nak(NakCode code);
   static Answer command_error() { return Answer(Kind::CommandError); }
   static Answer bad_value() { return Answer(Kind::BadValue); }

@@ -9,6 +9,7 @@ namespace interpolated_motion::emulation {
 /// The axis behind a SilverDust: it follows the target with a first-order lag.
 class LaggingAxis {
  public:
+  /// At 0, at rest, free.
   explicit LaggingAxis(const SilverDustPlant& parameters);
 
   /// One servo tick under control. `target`: counts, not wrapped.

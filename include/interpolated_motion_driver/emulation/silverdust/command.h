@@ -5,41 +5,41 @@
 
 namespace interpolated_motion::emulation {
 
-/// The commands an emulated SilverDust knows, with their numbers.
+/// The commands an emulated SilverDust knows, with their numbers (Command Reference).
 enum class Command : std::uint16_t {
-  Poll = 0,                     // POL
-  ClearPoll = 1,                // CPL
-  Halt = 2,                     // HLT
-  Stop = 3,                     // STP
-  Restart = 4,                  // RST
-  Revision = 5,                 // RVN
-  ClearProgram = 8,             // CLP
-  RunProgram = 10,              // RUN
-  WriteRegister = 11,           // WRI
-  ReadRegister = 12,            // RRG
-  VelocityMode = 15,            // VMI
-  ReadInternalStatus = 20,      // RIS
-  ReadIo = 21,                  // RIO
-  WriteQueue = 25,              // IMW
-  PollRoutine = 27,             // POR
-  MoveAbsolute = 134,           // MAV
-  MoveRelative = 135,           // MRV
-  ZeroTargetAndPosition = 145,  // ZTP
-  TargetToPosition = 146,       // TTP
-  TorqueLimits = 149,           // TQL
-  ErrorLimits = 151,            // ERL
-  WriteRegisterProgram = 154,   // WRP
-  Identity = 155,               // IDT
-  ClearInternalStatus = 163,    // CIS
-  CheckInternalStatus = 164,    // CKS
-  KillMotorConditions = 167,    // KMC
-  AckDelay = 173,               // ADL
-  KillEnableDriver = 182,       // KED
-  KillDisableDriver = 183,      // KDD
-  EnableDriver = 227,           // EMD
-  DisableDriver = 228,          // DMD
-  InterpolatedMoveStart = 253,  // IMS
-  QueueClear = 254,             // IMQ
+  Poll = 0,                     ///< POL
+  ClearPoll = 1,                ///< CPL
+  Halt = 2,                     ///< HLT
+  Stop = 3,                     ///< STP
+  Restart = 4,                  ///< RST
+  Revision = 5,                 ///< RVN
+  ClearProgram = 8,             ///< CLP
+  RunProgram = 10,              ///< RUN
+  WriteRegister = 11,           ///< WRI
+  ReadRegister = 12,            ///< RRG
+  VelocityMode = 15,            ///< VMI
+  ReadInternalStatus = 20,      ///< RIS
+  ReadIo = 21,                  ///< RIO
+  WriteQueue = 25,              ///< IMW
+  PollRoutine = 27,             ///< POR
+  MoveAbsolute = 134,           ///< MAV
+  MoveRelative = 135,           ///< MRV
+  ZeroTargetAndPosition = 145,  ///< ZTP
+  TargetToPosition = 146,       ///< TTP
+  TorqueLimits = 149,           ///< TQL
+  ErrorLimits = 151,            ///< ERL
+  WriteRegisterProgram = 154,   ///< WRP
+  Identity = 155,               ///< IDT
+  ClearInternalStatus = 163,    ///< CIS
+  CheckInternalStatus = 164,    ///< CKS
+  KillMotorConditions = 167,    ///< KMC
+  AckDelay = 173,               ///< ADL
+  KillEnableDriver = 182,       ///< KED
+  KillDisableDriver = 183,      ///< KDD
+  EnableDriver = 227,           ///< EMD
+  DisableDriver = 228,          ///< DMD
+  InterpolatedMoveStart = 253,  ///< IMS
+  QueueClear = 254,             ///< IMQ
 };
 
 /// When a command is obeyed.

@@ -15,6 +15,7 @@ class ErrorLimits {
   /// Which limit has been exceeded.
   enum class Excess { None, Moving, Holding };
 
+  /// `parameters`, which must outlive it, say what the limits are until ERL sets them.
   explicit ErrorLimits(const SilverDustParameters& parameters) : delivered_(parameters) { restart(); }
 
   /// As after power-up: the limits of the parameters, at rest, no error yet.

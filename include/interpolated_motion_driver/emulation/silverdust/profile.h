@@ -44,6 +44,7 @@ struct ProfileScale {
 /// overshoots and comes back.
 class ProfileGenerator {
  public:
+  /// At 0, at rest. Throws std::invalid_argument when the scales do not fit.
   explicit ProfileGenerator(const SilverDustParameters& parameters);
 
   /// Puts the target at `counts`, at rest.
