@@ -253,6 +253,10 @@ motion::RequestId MotionHardware::enable(bool on, HostTime now) {
                                          now);
 }
 
+motion::RequestId MotionHardware::shut_down(HostTime now) {
+  return implementation_->group->request(motion::RequestKind::ShutDown, now);
+}
+
 motion::RequestId MotionHardware::reset_faults(HostTime now) {
   return implementation_->group->request(motion::RequestKind::ResetFaults, now);
 }

@@ -23,6 +23,11 @@ bool is_settled(const axis::Axis& axis) {
   return axis.state() == AxisState::Disabled || axis.state() == AxisState::Ready || is_out_of_order(axis);
 }
 
+/// Its power stage may be on.
+bool is_powered(const axis::Axis& axis) {
+  return axis.state() != AxisState::Disabled && !is_out_of_order(axis);
+}
+
 bool holds_motion(AxisState state) {
   return state == AxisState::Loading || state == AxisState::Loaded || state == AxisState::Moving;
 }
@@ -91,6 +96,7 @@ HostTime Group::next_deadline() const {
 
 void Group::poll_starting(HostTime now) {
   if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
+  if (disable_when_stopped_) return enter(GroupState::Stopping);
   if (faulted()) return enter_fault();
   enter_rest_state(now);
   if (enable_when_found_ && state_ == GroupState::Disabled) start_enabling(now);
@@ -131,10 +137,7 @@ void Group::poll_settling(HostTime now) {
 void Group::poll_stopping(HostTime now) {
   if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
   if (ending_) finish_goal(*std::exchange(ending_, std::nullopt));
-  if (disable_when_stopped_ && !faulted()) {
-    if (any(AxisState::Ready)) return start_disabling(now);
-    if (!all(AxisState::Disabled)) return;
-  }
+  if (disable_when_stopped_ && any(AxisState::Ready)) return start_disabling(now);
   disable_when_stopped_ = false;
   if (faulted()) {
     fail_pending(faults());
@@ -210,14 +213,19 @@ RequestId Group::request(RequestKind kind, HostTime now) {
   const RequestId id = requests_.add(kind);
   switch (kind) {
     case RequestKind::Enable:
+      if (in_motion()) requests_.finish(id, true, "all drives are enabled, and the group is moving");
       if (state_ == GroupState::Disabled) start_enabling(now);
-      if (state_ == GroupState::Starting) enable_when_found_ = true;
+      if (state_ == GroupState::Starting && !disable_when_stopped_) enable_when_found_ = true;
       break;
     case RequestKind::Disable:
-      enable_when_found_ = false;
-      disable(now);
+      disable("stopped since the drives are to be disabled", now);
+      break;
+    case RequestKind::ShutDown:
+      disable("stopped since the driver is shutting down", now);
       break;
     case RequestKind::ResetFaults:
+      if (in_motion())
+        requests_.finish(id, false, "nothing is in fault, and the group is moving; nothing was changed");
       if (state_ == GroupState::Fault) reset(now);
       break;
     case RequestKind::Halt:
@@ -235,14 +243,15 @@ void Group::halt(HostTime now, const std::string& why) {
   if (in_motion()) stop(now, {GoalOutcome::Aborted, {GoalError::InvalidGoal, "The group was " + why + "."}});
 }
 
-void Group::disable(HostTime now) {
-  halt(now, "stopped since the drives are to be disabled");
-  if (state_ == GroupState::Fault || state_ == GroupState::Disabled || state_ == GroupState::Starting) return;
+// Whatever the group is doing: drives that are on may be among others that are in fault, or were left on when
+// those were reset.
+void Group::disable(const std::string& why, HostTime now) {
+  halt(now, why);
+  enable_when_found_ = false;
+  if (std::none_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_powered(*a); })) return;
   disable_when_stopped_ = true;
-  if (state_ == GroupState::Idle) {
-    start_disabling(now);
-    enter(GroupState::Stopping);
-  }
+  if (state_ == GroupState::Idle) start_disabling(now);
+  if (state_ != GroupState::Starting) enter(GroupState::Stopping);
 }
 
 bool Group::in_motion() const {

@@ -37,8 +37,9 @@ std::optional<Verdict> verdict(RequestKind kind, GroupState state, const std::st
     case RequestKind::ResetFaults:
       return verdict_on_reset(state, fault);
     case RequestKind::Disable:
+    case RequestKind::ShutDown:
       if (state == GroupState::Disabled) return Verdict{true, "all drives are disabled"};
-      if (state == GroupState::Fault) return Verdict{false, fault};
+      if (state == GroupState::Fault) return Verdict{false, "all other drives are disabled. " + fault};
       return std::nullopt;
     case RequestKind::Halt:
       if (at_rest(state)) return Verdict{true, "the group is at rest"};

@@ -123,10 +123,7 @@ void HardwareThread::snapshot(motion::Snapshot& out) const {
 }
 
 void HardwareThread::shut_down(HostDuration patience) {
-  if (!ended_) {
-    request([](Hardware& hardware, HostTime now) { return hardware.halt(now); }, patience / 2);
-    request([](Hardware& hardware, HostTime now) { return hardware.enable(false, now); }, patience / 2);
-  }
+  if (!ended_) request([](Hardware& hardware, HostTime now) { return hardware.shut_down(now); }, patience);
   stop();
 }
 

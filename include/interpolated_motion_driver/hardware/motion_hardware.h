@@ -72,6 +72,7 @@ class MotionHardware {
 
   /// Requests take time; each ends with one RequestResult.
   motion::RequestId enable(bool on, HostTime now);
+  motion::RequestId shut_down(HostTime now);  ///< as enable(false), for the driver's end
   motion::RequestId reset_faults(HostTime now);
   motion::RequestId halt(HostTime now);           ///< stops the group at once by the drives' own deceleration
   motion::RequestId clear_buffers(HostTime now);  ///< stops the group, then empties every FIFO

@@ -80,7 +80,7 @@ class Group {
   void bring_up(HostTime now);
   void start_enabling(HostTime now);
   void start_disabling(HostTime now);
-  void disable(HostTime now);
+  void disable(const std::string& why, HostTime now);
   void reset(HostTime now);
   void halt(HostTime now, const std::string& why);
   void stop(HostTime now, Ending ending);

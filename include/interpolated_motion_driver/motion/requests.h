@@ -10,7 +10,7 @@
 
 namespace interpolated_motion::motion {
 
-enum class RequestKind { Enable, Disable, ResetFaults, Halt, ClearBuffers };
+enum class RequestKind { Enable, Disable, ShutDown, ResetFaults, Halt, ClearBuffers };
 
 /// Requests that wait until the group has reached the state they ask for.
 class Requests {
