@@ -22,7 +22,8 @@ void TrajectoryActionServer::on_goal(Handle handle) {
   if (!answer || !*answer) {
     const Refusal refusal =
         answer ? answer->error() : Refusal{GoalError::InvalidGoal, "The driver is shutting down."};
-    ROS_ERROR_STREAM("goal rejected: " << refusal.text);
+    const auto line = rejected_.pass("goal rejected: " + refusal.text, host_now());
+    if (line) ROS_ERROR_STREAM(*line);
     handle.setRejected(to_result(refusal.code, refusal.text), refusal.text);
     return;
   }
@@ -55,7 +56,8 @@ void TrajectoryActionServer::goal_ended(const motion::GoalResult& result) {
       handle.setCanceled(to_result(result), result.text);
       return;
     case motion::GoalOutcome::Aborted:
-      ROS_ERROR_STREAM("goal aborted: " << result.text);
+      if (const auto line = aborted_.pass("goal aborted: " + result.text, host_now()))
+        ROS_ERROR_STREAM(*line);
       handle.setAborted(to_result(result), result.text);
       return;
   }

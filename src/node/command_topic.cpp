@@ -21,7 +21,8 @@ void CommandTopic::on_command(const trajectory_msgs::JointTrajectory& message) {
       [goal = std::move(goal)](auto& hardware, HostTime now) { return hardware.submit(goal, now); });
   if (!answer) return;
   if (!*answer) {
-    ROS_ERROR_STREAM("command ignored: " << answer->error().text);
+    const auto line = refused_.pass("command ignored: " + answer->error().text, host_now());
+    if (line) ROS_ERROR_STREAM(*line);
     return;
   }
   for (const std::string& warning : answer->value().warnings) ROS_WARN_STREAM(warning);

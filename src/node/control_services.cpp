@@ -12,11 +12,12 @@ constexpr HostDuration kPatience = std::chrono::seconds(15);
 
 }  // namespace
 
-ControlServices::ControlServices(ros::NodeHandle node, HardwareThread& hardware) : hardware_(hardware) {
+ControlServices::ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware)
+    : hardware_(hardware) {
   enable_ = node.advertiseService("enable", &ControlServices::enable, this);
   reset_faults_ = advertise_trigger(node, "reset_faults",
                                     [](auto& drives, HostTime now) { return drives.reset_faults(now); });
-  halt_ = advertise_trigger(node, "halt", [](auto& drives, HostTime now) { return drives.halt(now); });
+  halt_ = advertise_trigger(halt_node, "halt", [](auto& drives, HostTime now) { return drives.halt(now); });
   clear_buffers_ = advertise_trigger(node, "clear_buffers",
                                      [](auto& drives, HostTime now) { return drives.clear_buffers(now); });
 }

@@ -14,6 +14,10 @@ constexpr HostDuration kShutdownPatience = std::chrono::seconds(2);
 /// How often the node looks how far the drives have come up.
 const ros::WallDuration kBringUpGlance(0.02);
 constexpr double kDiagnosticsRate = 1.0;  ///< Hz
+/// One for each request that may be under way at a time: enable, disable, reset, clear.
+constexpr unsigned kServiceThreads = 4;
+/// A halt is not to wait for the answer to another one.
+constexpr unsigned kHaltThreads = 2;
 
 ros::NodeHandle private_node(ros::CallbackQueue& queue) {
   ros::NodeHandle node("~");
@@ -33,7 +37,9 @@ std::unique_ptr<WireLog> open_wire_log(const LoadedConfiguration& configuration)
 }  // namespace
 
 DriverNode::DriverNode(const LoadedConfiguration& configuration)
-    : commanding_(host_now()),
+    : services_(kServiceThreads),
+      halt_(kHaltThreads),
+      commanding_(host_now()),
       publishing_(host_now()),
       wire_log_(open_wire_log(configuration)),
       hardware_(start_hardware(configuration)),
@@ -42,13 +48,12 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
       setpoints_(private_node(command_queue_), *hardware_),
       queries_(private_node(command_queue_), *hardware_, configuration.driver.joints,
                configuration.node.emulated_samples),
-      controls_(private_node(service_queue_), *hardware_),
+      controls_(private_node(services_.queue()), private_node(halt_.queue()), *hardware_),
       states_(private_node(publish_queue_), *hardware_),
       status_(private_node(publish_queue_), *hardware_),
       diagnostics_(private_node(publish_queue_), *hardware_, configuration.driver, wire_log_.get()),
       bring_up_(configuration.driver.enable_on_start),
-      publisher_(publish_queue_, publishing_),
-      service_spinner_(1, &service_queue_) {
+      publisher_(publish_queue_, publishing_) {
   if (configuration.node.allow_fault_injection) {
     faults_ = std::make_unique<FaultInjection>(private_node(command_queue_), *hardware_);
   }
@@ -136,7 +141,8 @@ void DriverNode::announce() {
 int DriverNode::run(const volatile std::sig_atomic_t& stop) {
   const auto running = [&] { return stop == 0 && ros::ok() && !failed_; };
   publisher_.start();
-  service_spinner_.start();
+  services_.start();
+  halt_.start();
   bring_up(running);
   while (running()) serve_once(command_queue_, commanding_);
   return finish();
@@ -147,7 +153,8 @@ int DriverNode::finish() {
   if (!failed_) hardware_->shut_down(kShutdownPatience);
   // What the bus thread has said last: results of goals that the stop has ended, or why it failed.
   command_queue_.callAvailable();
-  service_spinner_.stop();
+  services_.stop();
+  halt_.stop();
   publisher_.stop();
   publish_queue_.callAvailable();
   if (wire_log_ && wire_log_->lost() > 0) {

@@ -13,6 +13,7 @@
 #include "interpolated_motion_driver/command_line/option_set.h"
 #include "interpolated_motion_driver/node/driver_node.h"
 #include "interpolated_motion_driver/node/load_configuration.h"
+#include "interpolated_motion_driver/node/shutdown_request.h"
 
 namespace {
 
@@ -79,6 +80,7 @@ int main(int argc, char** argv) {
   // With the last node handle ROS ends, and its log with it: this one outlives the message why the driver
   // ends.
   const ros::NodeHandle node("~");
+  interpolated_motion::node::on_shutdown_request([] { stop_requested = 1; });
   const int exit_code = run(node);
   ros::shutdown();
   return exit_code;

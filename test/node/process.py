@@ -8,13 +8,16 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import roslib.packages
 import rospkg
 import rospy
 import rostest
 import yaml
 from actionlib_msgs.msg import GoalStatus
+from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from driver_client import PATIENCE, Driver, goal, point  # noqa: E402
@@ -195,21 +198,48 @@ class Life(unittest.TestCase):
         finally:
             process.kill()
 
-    def expect_clean_end(self, name, number):
-        code, output, lines, driver = self.run_until(name, lambda process, _: process.send(number))
+    def expect_clean_end(self, name, stop):
+        code, output, lines, driver = self.run_until(name, stop)
         self.assertEqual(code, 0, output)
-        status, _ = driver.action.ending()
-        self.assertIn(status, (GoalStatus.PREEMPTED, GoalStatus.ABORTED))
+        status, result = driver.action.ending()
+        self.assertEqual(status, GoalStatus.ABORTED)
+        self.assertIn('shutting down', result.error_string)
         self.assertIn('Parameter type is ignored', output)
         self.assertGreater(len(lines), 100)
         for line in lines:
             self.assertRegex(line, CANDUMP_LINE)
 
     def test_interrupt(self):
-        self.expect_clean_end('interrupted', signal.SIGINT)
+        self.expect_clean_end('interrupted', lambda process, _: process.send(signal.SIGINT))
 
     def test_terminate(self):
-        self.expect_clean_end('terminated', signal.SIGTERM)
+        self.expect_clean_end('terminated', lambda process, _: process.send(signal.SIGTERM))
+
+    def test_killed_by_name(self):
+        """As `rosnode kill` does it."""
+
+        def kill(_process, _driver):
+            node = rosgraph.Master(rospy.get_name()).lookupNode('/killed')
+            xmlrpc.client.ServerProxy(node).shutdown(rospy.get_name(), 'a test')
+
+        self.expect_clean_end('killed', kill)
+
+    def test_halt_waits_for_no_other_service(self):
+        """A reset in motion is answered at once, and so is a halt beside it."""
+        process = Process('halted', configuration())
+        try:
+            driver = Driver('/halted')
+            driver.action.send(goal(JOINTS, [point(20.0, [3.0, 3.0], [0.0, 0.0])]))
+            driver.wait_moving()
+            reset = rospy.ServiceProxy('/halted/reset_faults', Trigger)()
+            self.assertFalse(reset.success)
+            self.assertIn('moving', reset.message)
+            self.assertTrue(rospy.ServiceProxy('/halted/halt', Trigger)().success)
+            status, result = driver.action.ending()
+            self.assertEqual(status, GoalStatus.ABORTED)
+            self.assertIn('~halt', result.error_string)
+        finally:
+            process.kill()
 
 
 if __name__ == '__main__':

@@ -10,6 +10,7 @@
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/node/hardware_thread.h"
+#include "interpolated_motion_driver/node/log_throttle.h"
 
 namespace interpolated_motion::node {
 
@@ -41,6 +42,8 @@ class TrajectoryActionServer {
   HardwareThread& hardware_;
   ros::NodeHandle node_;
   std::map<motion::GoalId, Handle> goals_;  ///< accepted and not yet ended
+  LogThrottle rejected_;
+  LogThrottle aborted_;
   motion::Snapshot snapshot_;
   control_msgs::FollowJointTrajectoryFeedback feedback_;
   Server server_;

@@ -8,6 +8,7 @@
 #include <trajectory_msgs/JointTrajectory.h>
 
 #include "interpolated_motion_driver/node/hardware_thread.h"
+#include "interpolated_motion_driver/node/log_throttle.h"
 
 namespace interpolated_motion::node {
 
@@ -22,6 +23,7 @@ class CommandTopic {
 
   HardwareThread& hardware_;
   const std::vector<std::string> joints_;
+  LogThrottle refused_;
   ros::Subscriber subscriber_;
 };
 

@@ -12,10 +12,12 @@
 namespace interpolated_motion::node {
 
 /// The services that change the state of the drives: `~enable`, `~reset_faults`, `~halt` and
-/// `~clear_buffers`. Each answers when it is done; so they are served by a thread of their own.
+/// `~clear_buffers`. Each answers when it is done, which takes seconds; so they are served by threads of
+/// their own, and `~halt` by threads that serve nothing else.
 class ControlServices {
  public:
-  ControlServices(ros::NodeHandle node, HardwareThread& hardware);
+  /// `~halt` is served by the queue of `halt_node`, the others by that of `node`.
+  ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware);
 
  private:
   using Start = std::function<motion::RequestId(HardwareThread::Hardware&, HostTime)>;

@@ -8,7 +8,6 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 
 #include "interpolated_motion_driver/node/action_server.h"
 #include "interpolated_motion_driver/node/bring_up.h"
@@ -22,6 +21,7 @@
 #include "interpolated_motion_driver/node/periodic_calls.h"
 #include "interpolated_motion_driver/node/query_services.h"
 #include "interpolated_motion_driver/node/queue_thread.h"
+#include "interpolated_motion_driver/node/service_queue.h"
 #include "interpolated_motion_driver/node/setpoint_topic.h"
 #include "interpolated_motion_driver/node/state_publisher.h"
 #include "interpolated_motion_driver/node/status_publisher.h"
@@ -29,12 +29,13 @@
 
 namespace interpolated_motion::node {
 
-/// The ROS side of the driver. Four threads:
+/// The ROS side of the driver. Its threads:
 /// - the bus thread (HardwareThread) owns drives and buses;
 /// - commands: action, `~command`, `~setpoints`, `~query_state` (the caller of run());
 /// - publishing: everything that is published at a rate, and the log;
-/// - services: requests that take seconds.
-/// Each part lives in one of the last three, so no part needs a lock.
+/// - services: requests that take seconds; several, so that none waits for another;
+/// - halt: `~halt` and nothing else.
+/// What commands and publishing have lives in one thread, so no part needs a lock; requests have no state.
 class DriverNode {
  public:
   /// Starts the bus thread. Throws std::invalid_argument, std::runtime_error (a bus or a file cannot be
@@ -56,7 +57,8 @@ class DriverNode {
 
   ros::CallbackQueue command_queue_;
   ros::CallbackQueue publish_queue_;
-  ros::CallbackQueue service_queue_;
+  ServiceQueue services_;
+  ServiceQueue halt_;
   PeriodicCalls commanding_;
   PeriodicCalls publishing_;
 
@@ -79,7 +81,6 @@ class DriverNode {
   motion::Snapshot snapshot_;
 
   QueueThread publisher_;
-  ros::AsyncSpinner service_spinner_;
 };
 
 }  // namespace interpolated_motion::node
