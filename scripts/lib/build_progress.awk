@@ -15,7 +15,8 @@ function show(done, total,    percent, left) {
 
 /^\[[0-9]+\/[0-9]+\] / {
   split(substr($1, 2), counts, /[\/\]]/)
-  if ($0 ~ /genmsg_check_deps|Re-checking globbed directories|Running utility command/) next
+  is_noise = $0 ~ /genmsg_check_deps|Re-checking globbed directories|Running utility command/
+  if (is_noise && !work) next
   if (!work++) {
     begin = systime()
     print "\n== build"
