@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 #include "interpolated_motion_driver/emulation/world.h"
 
 // How much faster than real time emulated EPOS drives run. "samples/s" counts the 1 ms samples of all drives.
@@ -116,7 +117,7 @@ void idle_drives(benchmark::State& state) {
   for (int id = 1; id <= state.range(0); ++id) {
     EposParameters parameters;
     parameters.node_id = static_cast<std::uint8_t>(id);
-    world.add_epos(bus, parameters);
+    world.add<EposDrive>(bus, parameters);
   }
   Host host(world, static_cast<int>(state.range(0)));
   host.run(host_duration(0.3));
@@ -134,7 +135,7 @@ void streaming_drives(benchmark::State& state) {
   for (int id = 1; id <= state.range(0); ++id) {
     EposParameters parameters;
     parameters.node_id = static_cast<std::uint8_t>(id);
-    drives.push_back(&world.add_epos(bus, parameters));
+    drives.push_back(&world.add<EposDrive>(bus, parameters));
   }
   Host host(world, static_cast<int>(state.range(0)));
   host.bring_up();

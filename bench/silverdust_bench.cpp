@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/emulation/world.h"
 
 // How much faster than real time emulated SilverDust drives run. "ticks/s" counts the 120 us servo ticks of
@@ -76,7 +77,7 @@ struct SetUp {
     for (int i = 0; i < count; ++i) {
       SilverDustParameters parameters;
       parameters.address = kFirstAddress + i;
-      drives.push_back(&world.add_silverdust(line, parameters));
+      drives.push_back(&world.add<SilverDust>(line, parameters));
       if (observed) {
         drives.back()->set_sample_observer(
             [this](const emulation::SilverDustSample& sample) { sum += sample.demand; });

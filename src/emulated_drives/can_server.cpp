@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/hardware/fault_injection.h"
+#include "interpolated_motion_driver/emulation/bus_faults.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 #include "interpolated_motion_driver/transport/host_clock.h"
 
 namespace interpolated_motion::emulated_drives {
@@ -17,7 +18,6 @@ constexpr int kHostPort = 0;
 /// say by themselves (heartbeats, emergencies).
 constexpr HostDuration kAnswered = std::chrono::milliseconds(2);
 constexpr HostDuration kIdleWait = std::chrono::milliseconds(10);
-constexpr double kSample = 1e-3;  // s
 
 transport::SocketcanParameters interface_parameters(const CanDrives& list) {
   transport::SocketcanParameters parameters;
@@ -36,27 +36,23 @@ CanServer::CanServer(boost::asio::io_context& io, const CanDrives& list, const s
       interface_(io, interface_parameters(list), world_.now()),
       interface_name_(list.interface) {
   for (const auto& drive : list.drives) add_drive(drive, samples_folder);
-  add_target(interface_name_, [this](const std::string& command, std::string* reason) {
-    return hardware::inject_bus_fault(bus_, command, world_.now(), reason);
+  add_target(interface_name_, [this](const std::string& command) {
+    return emulation::obey_fault(command, emulation::faults_of(bus_, world_.now()));
   });
 }
 
 void CanServer::add_drive(const NamedDrive<emulation::EposParameters>& drive,
                           const std::string& samples_folder) {
-  emulation::EposDrive& added = world_.add_epos(bus_, drive.parameters);
+  emulation::EposDrive& added = world_.add<emulation::EposDrive>(bus_, drive.parameters);
   const std::string node = std::to_string(drive.parameters.node_id);
   nodes_ += (nodes_.empty() ? "" : ", ") + node;
   for (const std::string& name : {drive.name, node}) {
-    add_target(name, [this, &added](const std::string& command, std::string* reason) {
-      return hardware::inject_drive_fault(added, command, world_.now(), reason);
-    });
+    add_target(name,
+               [this, &added](const std::string& command) { return added.inject(command, world_.now()); });
   }
   if (samples_folder.empty()) return;
   SampleFile& file = samples_.emplace_back(samples_folder, drive.name);
-  added.set_sample_observer([&file](const emulation::EposSample& sample) {
-    const double elapsed = kSample * static_cast<double>(sample.samples_since_start);
-    file.add({sample.time, elapsed, sample.demand, sample.actual}, sample.interpolating);
-  });
+  added.observe([&file](const emulation::DemandSample& sample) { file.add(sample); });
 }
 
 void CanServer::turn() {

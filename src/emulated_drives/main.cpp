@@ -5,6 +5,7 @@
 #include <exception>
 #include <istream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,22 +61,20 @@ class CommandInput {
     const std::size_t blank = line.find_first_of(" \t", begin);
     const std::string target = line.substr(begin, blank - begin);
     const std::string command = blank == std::string::npos ? "" : line.substr(blank + 1);
-    std::string reason;
-    const bool done = inject(target, command, &reason);
-    say(done ? "done: " + line : "refused: " + reason);
+    const auto refused = inject(target, command);
+    say(refused ? "refused: " + *refused : "done: " + line);
   }
 
-  bool inject(const std::string& target, const std::string& command, std::string* reason) {
+  std::optional<std::string> inject(const std::string& target, const std::string& command) {
     std::vector<Server*> found;
     std::string names;
     for (const auto& server : servers_) {
       if (server->knows(target)) found.push_back(server.get());
       names += (names.empty() ? "" : ", ") + server->target_names();
     }
-    if (found.size() == 1) return found.front()->inject(target, command, reason);
-    *reason = found.empty() ? "\"" + target + "\" is neither a drive nor an interface; there are " + names
-                            : "\"" + target + "\" is on two buses: call the drive by its joint";
-    return false;
+    if (found.size() == 1) return found.front()->inject(target, command);
+    return found.empty() ? "\"" + target + "\" is neither a drive nor an interface; there are " + names
+                         : "\"" + target + "\" is on two buses: call the drive by its joint";
   }
 
   const Servers& servers_;

@@ -1,6 +1,7 @@
 #include "sample_file.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
@@ -9,7 +10,9 @@
 namespace interpolated_motion::emulated_drives {
 namespace {
 
-/// Some seconds of a drive's samples: writing takes far longer than computing them.
+/// Writing takes far longer than computing samples: they are written in blocks, of this time and size at
+/// most.
+constexpr HostDuration kFlushPeriod = std::chrono::milliseconds(20);
 constexpr std::size_t kBuffer = std::size_t{1} << 20;
 
 }  // namespace
@@ -27,22 +30,24 @@ void SampleFile::open() {
   throw std::runtime_error(fmt::format("--samples: {} cannot be written: {}", path_, std::strerror(errno)));
 }
 
-void SampleFile::add(const hardware::DemandSample& sample, bool interpolating) {
-  const bool begins = interpolating && (!interpolating_ || sample.drive_seconds == 0.0);
+void SampleFile::add(const emulation::DemandSample& sample) {
+  const bool interpolated = last_ && last_->interpolating;
   const bool stands = last_ && last_->demand == sample.demand && last_->actual == sample.actual;
-  const bool was_interpolating = interpolating_;
   last_ = sample;
-  interpolating_ = interpolating;
-  if (begins) open();
-  if (!interpolating && (!moving_ || stands)) {
+  if (sample.interpolating && (!interpolated || sample.drive_seconds == 0.0)) open();
+  if (!sample.interpolating && (!moving_ || stands)) {
     if (moving_) std::fflush(file_.get());
     moving_ = false;
     return;
   }
   moving_ = true;
   fmt::print(file_.get(), "{} {:.6f} {:.6f} {} {}\n", sample.time.time_since_epoch().count(),
-             sample.drive_seconds, sample.demand, sample.actual, interpolating ? 1 : 0);
-  if (was_interpolating && !interpolating) std::fflush(file_.get());
+             sample.drive_seconds, sample.demand, sample.actual, sample.interpolating ? 1 : 0);
+  const bool ends = interpolated && !sample.interpolating;
+  if (ends || sample.time - flushed_ > kFlushPeriod) {
+    std::fflush(file_.get());
+    flushed_ = sample.time;
+  }
 }
 
 }  // namespace interpolated_motion::emulated_drives

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "interpolated_motion_driver/hardware/demand_sample.h"
+#include "interpolated_motion_driver/emulation/drive.h"
 
 namespace interpolated_motion::emulated_drives {
 
@@ -18,7 +18,7 @@ class SampleFile {
   /// Throws std::runtime_error when the file cannot be written.
   SampleFile(const std::string& folder, const std::string& name);
 
-  void add(const hardware::DemandSample& sample, bool interpolating);
+  void add(const emulation::DemandSample& sample);
 
  private:
   struct CloseFile {
@@ -29,9 +29,9 @@ class SampleFile {
 
   std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
-  std::optional<hardware::DemandSample> last_;
+  std::optional<emulation::DemandSample> last_;
   bool moving_ = false;
-  bool interpolating_ = false;
+  HostTime flushed_{};  ///< of the last sample that is surely in the file
 };
 
 }  // namespace interpolated_motion::emulated_drives

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/hardware/fault_injection.h"
+#include "interpolated_motion_driver/emulation/bus_faults.h"
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/transport/host_clock.h"
 
 namespace interpolated_motion::emulated_drives {
 namespace {
 
 constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
-constexpr double kLongestUnplugged = 3600.0;  // s
 
 }  // namespace
 
@@ -25,51 +24,37 @@ SerialServer::SerialServer(boost::asio::io_context& io, const SerialDrives& list
       line_(world_.add_serial_line(list.link, list.line)),
       link_(list.link) {
   for (const auto& drive : list.drives) add_drive(drive, samples_folder);
-  add_target(link_, [this](const std::string& command, std::string* reason) {
-    return inject_line_fault(command, reason);
-  });
+  add_target(link_,
+             [this](const std::string& command) { return emulation::obey_fault(command, line_faults()); });
   plug_in();
 }
 
 void SerialServer::add_drive(const NamedDrive<emulation::SilverDustParameters>& drive,
                              const std::string& samples_folder) {
-  emulation::SilverDust& added = world_.add_silverdust(line_, drive.parameters);
+  emulation::SilverDust& added = world_.add<emulation::SilverDust>(line_, drive.parameters);
   const std::string address = std::to_string(drive.parameters.address);
   addresses_ += (addresses_.empty() ? "" : ", ") + address;
   for (const std::string& name : {drive.name, address}) {
-    add_target(name, [this, &added](const std::string& command, std::string* reason) {
-      return hardware::inject_drive_fault(added, command, world_.now(), reason);
-    });
+    add_target(name,
+               [this, &added](const std::string& command) { return added.inject(command, world_.now()); });
   }
   if (samples_folder.empty()) return;
   SampleFile& file = samples_.emplace_back(samples_folder, drive.name);
-  const double tick = seconds(drive.parameters.tick);
-  added.set_sample_observer([&file, tick](const emulation::SilverDustSample& sample) {
-    const double elapsed = tick * static_cast<double>(sample.ticks_since_start);
-    file.add({sample.time, elapsed, sample.demand, sample.actual}, sample.interpolating);
-  });
+  added.observe([&file](const emulation::DemandSample& sample) { file.add(sample); });
 }
 
-bool SerialServer::inject_line_fault(const std::string& command, std::string* reason) {
-  const std::string unplug_command = "unplug ";
-  if (command.compare(0, unplug_command.size(), unplug_command) == 0)
-    return unplug(command.substr(unplug_command.size()), reason);
-  if (hardware::inject_line_fault(line_, command, world_.now(), reason)) return true;
-  *reason += ", unplug SECONDS";
-  return false;
+std::vector<emulation::FaultCommand> SerialServer::line_faults() {
+  auto faults = emulation::faults_of(line_, world_.now());
+  faults.push_back({"unplug", {emulation::kFaultSeconds}, [this](const std::vector<double>& n) {
+                      unplug(host_duration(n[0]));
+                    }});
+  return faults;
 }
 
-bool SerialServer::unplug(const std::string& duration, std::string* reason) {
-  char* end = nullptr;
-  const double length = std::strtod(duration.c_str(), &end);
-  if (end == duration.c_str() || *end != '\0' || !(length >= 0.0 && length <= kLongestUnplugged)) {
-    *reason = fmt::format("\"{}\" is not a number within 0..{}", duration, kLongestUnplugged);
-    return false;
-  }
+void SerialServer::unplug(HostDuration length) {
   terminal_.reset();
   incoming_.clear();
-  plug_in_at_ = transport::read_host_clock() + host_duration(length);
-  return true;
+  plug_in_at_ = transport::read_host_clock() + length;
 }
 
 void SerialServer::plug_in() {

@@ -3,8 +3,10 @@
 #include <list>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "drive_list.h"
+#include "interpolated_motion_driver/emulation/fault_command.h"
 #include "interpolated_motion_driver/transport/pseudo_terminal.h"
 #include "sample_file.h"
 #include "server.h"
@@ -24,8 +26,8 @@ class SerialServer : public Server {
  private:
   void turn() override;
   void add_drive(const NamedDrive<emulation::SilverDustParameters>& drive, const std::string& samples_folder);
-  bool inject_line_fault(const std::string& command, std::string* reason);
-  bool unplug(const std::string& duration, std::string* reason);
+  std::vector<emulation::FaultCommand> line_faults();
+  void unplug(HostDuration length);
   void plug_in();
   void wait_for_characters();
   void take_characters();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,16 +30,16 @@ class Server {
 
   /// Whether `target` names a drive (joint, node id or address) or the interface of this server.
   bool knows(const std::string& target) const { return targets_.count(target) > 0; }
-  /// A fault of a target it knows; commands as in hardware/fault_injection.h. False with a reason when it is
-  /// none.
-  bool inject(const std::string& target, const std::string& command, std::string* reason) {
-    return targets_.at(target)(command, reason);
+  /// A fault of a target it knows; commands as in emulation/drive.h and emulation/bus_faults.h. Returns why
+  /// not.
+  std::optional<std::string> inject(const std::string& target, const std::string& command) {
+    return targets_.at(target)(command);
   }
   /// The names it knows, for people.
   std::string target_names() const;
 
  protected:
-  using Injector = std::function<bool(const std::string& command, std::string* reason)>;
+  using Injector = std::function<std::optional<std::string>(const std::string& command)>;
 
   /// `announce` is told in one line what becomes of the interface.
   Server(boost::asio::io_context& io, Announcement announce);

@@ -22,27 +22,12 @@ transport::VirtualCanBus& World::add_can_bus(std::string name, int bitrate) {
   return *buses_.back();
 }
 
-template <class Drive, class Parameters>
-Drive& World::add(transport::VirtualCanBus& bus, const Parameters& parameters) {
-  for (const Member& member : members_) {
-    if (member.bus == &bus && member.node_id == parameters.node_id) {
-      throw std::invalid_argument(
-          fmt::format("bus {}: node_id {} is taken by another drive", bus.name(), parameters.node_id));
-    }
+void World::require_free_node(const transport::VirtualCanBus& bus, int node_id) const {
+  for (const CanMember& member : can_members_) {
+    if (member.bus != &bus || member.node_id != node_id) continue;
+    throw std::invalid_argument(
+        fmt::format("bus {}: node_id {} is taken by another drive", bus.name(), node_id));
   }
-  validate(parameters);
-  auto drive = std::make_unique<Drive>(bus, parameters, now_);
-  Drive& added = *drive;
-  members_.push_back({&bus, parameters.node_id, std::move(drive)});
-  return added;
-}
-
-EposDrive& World::add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters) {
-  return add<EposDrive>(bus, parameters);
-}
-
-CyclicDrive& World::add_cyclic(transport::VirtualCanBus& bus, const CyclicParameters& parameters) {
-  return add<CyclicDrive>(bus, parameters);
 }
 
 transport::CanBus& World::can_bus(std::string_view name) {
@@ -59,13 +44,6 @@ transport::VirtualSerialLine& World::add_serial_line(std::string name,
   return *lines_.back();
 }
 
-SilverDust& World::add_silverdust(transport::VirtualSerialLine& line,
-                                  const SilverDustParameters& parameters) {
-  validate(parameters);
-  serial_members_.push_back({&line, std::make_unique<SilverDust>(line, parameters, now_)});
-  return *serial_members_.back().drive;
-}
-
 transport::SerialLine& World::serial_line(std::string_view name) {
   for (const auto& line : lines_) {
     if (line->name() == name) return line->host();
@@ -76,9 +54,9 @@ transport::SerialLine& World::serial_line(std::string_view name) {
 HostTime World::next_event() const {
   HostTime next = kNever;
   for (const auto& bus : buses_) next = std::min(next, bus->next_event());
-  for (const Member& member : members_) next = std::min(next, member.drive->next_event());
+  for (const CanMember& member : can_members_) next = std::min(next, member.drive->next_event());
   for (const auto& line : lines_) next = std::min(next, line->next_event());
-  for (const SerialMember& member : serial_members_) next = std::min(next, member.drive->next_event());
+  for (const auto& drive : line_members_) next = std::min(next, drive->next_event());
   return next;
 }
 
@@ -90,14 +68,14 @@ std::uint64_t World::delivered() const {
 }
 
 void World::process_events() {
-  for (const Member& member : members_) {
+  for (const CanMember& member : can_members_) {
     if (member.drive->next_event() <= now_) member.drive->process(now_);
   }
   for (const auto& bus : buses_) {
     if (bus->next_event() <= now_) bus->process(now_);
   }
-  for (const SerialMember& member : serial_members_) {
-    if (member.drive->next_event() <= now_) member.drive->process(now_);
+  for (const auto& drive : line_members_) {
+    if (drive->next_event() <= now_) drive->process(now_);
   }
   for (const auto& line : lines_) {
     if (line->next_event() <= now_) line->process(now_);
@@ -117,7 +95,7 @@ HostTime World::advance(HostTime limit) {
     now_ = std::max(now_, next);
     process_events();
   }
-  for (const SerialMember& member : serial_members_) member.drive->process(now_);
+  for (const auto& drive : line_members_) drive->process(now_);
   return now_;
 }
 

@@ -10,7 +10,10 @@
 #include "interpolated_motion_driver/axis/silverlode/queue_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode/register_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode/silverlode_axis.h"
-#include "interpolated_motion_driver/hardware/fault_injection.h"
+#include "interpolated_motion_driver/emulation/bus_faults.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/hardware/serial_port_device.h"
 #include "interpolated_motion_driver/hardware/socketcan_device.h"
 
@@ -184,8 +187,8 @@ void Assembly::add_emulated_can_bus(const BusConfiguration& bus) {
   transport::VirtualCanBus& wire = world_.add_can_bus(bus.name, static_cast<int>(bus.bitrate));
   virtual_can_buses_[bus.name] = &wire;
   add_link(std::make_unique<CanLink>(bus, wire.host()));
-  injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
-    return inject_bus_fault(wire, command, now, reason);
+  injectors_[bus.name] = [&wire](const std::string& command, HostTime now) {
+    return emulation::obey_fault(command, emulation::faults_of(wire, now));
   };
 }
 
@@ -197,8 +200,8 @@ void Assembly::add_emulated_line(const BusConfiguration& bus) {
   transport::VirtualSerialLine& wire = world_.add_serial_line(bus.name, parameters);
   virtual_lines_[bus.name] = &wire;
   add_link(std::make_unique<SerialLink>(bus, wire.host()));
-  injectors_[bus.name] = [&wire](const std::string& command, HostTime now, std::string* reason) {
-    return inject_line_fault(wire, command, now, reason);
+  injectors_[bus.name] = [&wire](const std::string& command, HostTime now) {
+    return emulation::obey_fault(command, emulation::faults_of(wire, now));
   };
 }
 
@@ -220,30 +223,28 @@ void Assembly::add_epos(const Configuration& configuration, const DriveConfigura
   axes_.push_back(std::make_unique<axis::EposAxis>(
       epos_parameters(configuration, drive, bus_configurations_.at(drive.bus), link.record_bus_time()),
       link.master(), node));
-  audits_.emplace_back(drive.transmission, *axes_.back());
+  audits_.emplace_back(drive.transmission, *axes_.back(), drive.type == DriveType::Cyclic);
   if (virtual_can_buses_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_epos(drive, index);
 }
 
-template <class Drive>
-void Assembly::observe(const DriveConfiguration& drive, std::size_t index, Drive& emulated) {
-  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now, std::string* reason) {
-    return inject_drive_fault(emulated, command, now, reason);
+void Assembly::observe(const DriveConfiguration& drive, std::size_t index, emulation::Drive& emulated) {
+  injectors_[drive.joint] = [&emulated](const std::string& command, HostTime now) {
+    return emulated.inject(command, now);
   };
   emulated_positions_[index] = [&emulated, transmission = drive.transmission] {
     return transmission.joint_position(emulated.position());
   };
+  sampling_.push_back([this, index, &emulated](bool on) {
+    if (!on) return emulated.observe({});
+    emulated.observe([this, index](const DemandSample& sample) {
+      if (sample.interpolating) take(index, sample);
+    });
+  });
 }
 
 void Assembly::emulate_epos(const DriveConfiguration& drive, std::size_t index) {
-  emulation::EposDrive& emulated = world_.add_epos(*virtual_can_buses_.at(drive.bus), drive.emulation.drive);
-  sampling_.push_back([this, index, &emulated](bool on) {
-    if (!on) return emulated.set_sample_observer({});
-    emulated.set_sample_observer([this, index](const emulation::EposSample& sample) {
-      const double elapsed = 1e-3 * static_cast<double>(sample.samples_since_start);
-      if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
-    });
-  });
-  observe(drive, index, emulated);
+  observe(drive, index,
+          world_.add<emulation::EposDrive>(*virtual_can_buses_.at(drive.bus), drive.emulation.drive));
 }
 
 void Assembly::add_silverlode(const Configuration& configuration, const DriveConfiguration& drive) {
@@ -255,7 +256,7 @@ void Assembly::add_silverlode(const Configuration& configuration, const DriveCon
   const double lead = start_lead(bus, configuration, link.master());
   axes_.push_back(std::make_unique<axis::SilverlodeAxis>(
       silverlode_parameters(configuration, drive, bus, lead), link.master(), device, common_start(drive)));
-  audits_.emplace_back(drive.transmission, *axes_.back());
+  audits_.emplace_back(drive.transmission, *axes_.back(), drive.type == DriveType::Cyclic);
   if (virtual_lines_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_silverlode(drive, index);
 }
 
@@ -272,17 +273,8 @@ axis::LineStart* Assembly::common_start(const DriveConfiguration& drive) {
 }
 
 void Assembly::emulate_silverlode(const DriveConfiguration& drive, std::size_t index) {
-  emulation::SilverDust& emulated =
-      world_.add_silverdust(*virtual_lines_.at(drive.bus), drive.silverlode.emulated);
-  const double tick = drive.silverlode.scale.tick;
-  sampling_.push_back([this, index, tick, &emulated](bool on) {
-    if (!on) return emulated.set_sample_observer({});
-    emulated.set_sample_observer([this, index, tick](const emulation::SilverDustSample& sample) {
-      const double elapsed = tick * static_cast<double>(sample.ticks_since_start);
-      if (sample.interpolating) take(index, {sample.time, elapsed, sample.demand, sample.actual});
-    });
-  });
-  observe(drive, index, emulated);
+  observe(drive, index,
+          world_.add<emulation::SilverDust>(*virtual_lines_.at(drive.bus), drive.silverlode.emulated));
 }
 
 void Assembly::add_cyclic(const Configuration& configuration, const DriveConfiguration& drive) {
@@ -292,23 +284,13 @@ void Assembly::add_cyclic(const Configuration& configuration, const DriveConfigu
   axes_.push_back(std::make_unique<axis::CyclicAxis>(
       cyclic_parameters(configuration, drive, bus_configurations_.at(drive.bus), link.record_bus_time()),
       link.master(), node));
-  audits_.emplace_back(drive.transmission, *axes_.back());
+  audits_.emplace_back(drive.transmission, *axes_.back(), drive.type == DriveType::Cyclic);
   if (virtual_can_buses_.count(drive.bus) > 0 && !drive.emulation.missing) emulate_cyclic(drive, index);
 }
 
-// The drive has no clock of its own for the motion: it follows SYNC, that is the host's time.
 void Assembly::emulate_cyclic(const DriveConfiguration& drive, std::size_t index) {
-  emulation::CyclicDrive& emulated =
-      world_.add_cyclic(*virtual_can_buses_.at(drive.bus), drive.cyclic.emulated);
-  sampling_.push_back([this, index, &emulated](bool on) {
-    if (!on) return emulated.set_sample_observer({});
-    emulated.set_sample_observer([this, index](const emulation::CyclicSample& sample) {
-      const HostTime begin = axes_[index]->path_begin();
-      if (!sample.following || begin == kNever) return;
-      take(index, {sample.time, seconds(sample.time - begin), sample.demand, sample.actual});
-    });
-  });
-  observe(drive, index, emulated);
+  observe(drive, index,
+          world_.add<emulation::CyclicDrive>(*virtual_can_buses_.at(drive.bus), drive.cyclic.emulated));
 }
 
 void Assembly::begin_audits(const std::vector<trajectory::Path>& paths, HostTime now) {
@@ -335,7 +317,11 @@ std::optional<double> Assembly::emulated_position(std::size_t joint) const {
 bool Assembly::inject(const std::string& target, const std::string& command, HostTime now,
                       std::string* reason) {
   const auto found = injectors_.find(target);
-  if (found != injectors_.end()) return found->second(command, now, reason);
+  if (found != injectors_.end()) {
+    const auto refused = found->second(command, now);
+    if (refused) *reason = *refused;
+    return !refused;
+  }
   *reason = fmt::format("\"{}\" is neither a joint with an emulated drive nor an emulated bus", target);
   return false;
 }

@@ -24,7 +24,10 @@ void PathAudit::clear() {
 
 void PathAudit::add(const DemandSample& sample) {
   if (sample.time < begin_ || sample.time > end_) return;
-  const GoalTime time = axis_->goal_time_at(sample.drive_seconds);
+  const HostTime path_begin = host_time_ ? axis_->path_begin() : sample.time;
+  if (path_begin == kNever) return;
+  const GoalTime time =
+      axis_->goal_time_at(host_time_ ? seconds(sample.time - path_begin) : sample.drive_seconds);
   final_ = std::abs(sample.demand - transmission_.counts(path_.sample(time).position));
   worst_ = std::max(worst_, final_);
   ++samples_;

@@ -21,7 +21,7 @@ int property_cases(int fallback) {
 TEST(World, AdvanceStopsAtTheFirstFrameForTheHost) {
   World world;
   auto& bus = world.add_can_bus("can0", 1'000'000);
-  world.add_epos(bus, EposParameters{});
+  world.add<EposDrive>(bus, EposParameters{});
   const HostTime limit = HostTime{} + ms(1000);
   const HostTime boot = world.advance(limit);
   EXPECT_LT(boot, HostTime{} + ms(200.1));
@@ -36,7 +36,7 @@ TEST(World, AdvanceStopsAtTheFirstFrameForTheHost) {
 TEST(World, UnreadFramesDoNotHoldTimeUp) {
   World world;
   auto& bus = world.add_can_bus("can0", 1'000'000);
-  world.add_epos(bus, EposParameters{});
+  world.add<EposDrive>(bus, EposParameters{});
   const HostTime limit = HostTime{} + ms(1000);
   world.advance(limit);
   EXPECT_EQ(world.advance(limit), limit);
@@ -57,8 +57,8 @@ TEST(World, BusesAreSeparate) {
   World world;
   auto& a = world.add_can_bus("a", 1'000'000);
   auto& b = world.add_can_bus("b", 250'000);
-  world.add_epos(a, EposParameters{});
-  world.add_epos(b, EposParameters{});
+  world.add<EposDrive>(a, EposParameters{});
+  world.add<EposDrive>(b, EposParameters{});
   for (int i = 0; i < 4; ++i) world.advance(HostTime{} + ms(500));
   EXPECT_TRUE(world.can_bus("a").receive());
   EXPECT_FALSE(world.can_bus("a").receive());
@@ -71,11 +71,11 @@ TEST(World, RefusesWrongSettingsByName) {
   EXPECT_THROW(world.add_can_bus("can0", 1'000'000), std::invalid_argument);
   EXPECT_THROW(world.can_bus("can1"), std::invalid_argument);
   EposParameters parameters;
-  world.add_epos(bus, parameters);
-  EXPECT_THROW(world.add_epos(bus, parameters), std::invalid_argument);
+  world.add<EposDrive>(bus, parameters);
+  EXPECT_THROW(world.add<EposDrive>(bus, parameters), std::invalid_argument);
   parameters.node_id = 128;
   try {
-    world.add_epos(bus, parameters);
+    world.add<EposDrive>(bus, parameters);
     FAIL() << "node id 128 was taken";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_EQ(std::string(refusal.what()),
@@ -109,7 +109,7 @@ std::string trace(std::uint64_t seed, int frames) {
   EposParameters second;
   second.node_id = 2;
   second.clock_error_ppm = 80.0;
-  host.world.add_epos(host.bus, second);
+  host.world.add<EposDrive>(host.bus, second);
   host.boot();
   std::mt19937_64 random(seed);
   const std::uint32_t ids[] = {0x000, 0x080, 0x201, 0x301, 0x302, 0x401, 0x501, 0x601, 0x602, 0x701, 0x77F};

@@ -48,7 +48,7 @@ struct Disturbance {
   const char* name;    ///< for the test
   const char* text;    ///< for the table
   const char* target;  ///< joint or bus
-  const char* begin;   ///< command of fault_injection.h
+  const char* begin;   ///< command of emulation/drive.h or emulation/bus_faults.h
   const char* end;     ///< likewise, or empty: it ends by itself
   double seconds;      ///< from `begin` to the end
   Kind kind;

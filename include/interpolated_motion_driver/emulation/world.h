@@ -4,15 +4,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
-#include "interpolated_motion_driver/emulation/cyclic/cyclic_parameters.h"
-#include "interpolated_motion_driver/emulation/device.h"
-#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
-#include "interpolated_motion_driver/emulation/epos/epos_parameters.h"
-#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
-#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
+#include "interpolated_motion_driver/emulation/drive.h"
 #include "interpolated_motion_driver/transport/can_bus.h"
 #include "interpolated_motion_driver/transport/serial_line.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
@@ -26,7 +21,7 @@ namespace interpolated_motion::emulation {
 ///
 ///     World world;
 ///     auto& bus = world.add_can_bus("can0", 1'000'000);
-///     auto& drive = world.add_epos(bus, parameters);
+///     auto& drive = world.add<EposDrive>(bus, parameters);
 ///     transport::CanBus& host = world.can_bus("can0");
 ///     while (now < end) {
 ///       while (auto frame = host.receive()) driver.on_frame(*frame);
@@ -44,22 +39,31 @@ class World {
   /// the rate is out of range. The reference stays valid.
   transport::VirtualCanBus& add_can_bus(std::string name, int bitrate);
 
-  /// A new drive on `bus`, switched on now: it sends its boot-up message after its boot time. Throws
-  /// std::invalid_argument for a wrong parameter or a node id already taken on that bus. The reference stays
-  /// valid.
-  EposDrive& add_epos(transport::VirtualCanBus& bus, const EposParameters& parameters);
-
-  /// The same for a drive in cyclic synchronous position mode.
-  CyclicDrive& add_cyclic(transport::VirtualCanBus& bus, const CyclicParameters& parameters);
+  /// A new drive on `bus`, switched on now. `DriveClass` is a Drive and is made of the bus, its parameters,
+  /// which have a `node_id`, and the time. Throws std::invalid_argument for a wrong parameter or a node id
+  /// already taken on that bus. The reference stays valid.
+  template <class DriveClass, class Parameters>
+  DriveClass& add(transport::VirtualCanBus& bus, const Parameters& parameters) {
+    require_free_node(bus, parameters.node_id);
+    auto drive = std::make_unique<DriveClass>(bus, parameters, now_);
+    DriveClass& added = *drive;
+    can_members_.push_back({&bus, parameters.node_id, std::move(drive)});
+    return added;
+  }
 
   /// A new serial line. Throws std::invalid_argument when the name is taken (by a line or a bus) or a
   /// parameter is out of range. The reference stays valid.
   transport::VirtualSerialLine& add_serial_line(std::string name,
                                                 const transport::SerialLineParameters& parameters = {});
 
-  /// A new drive on `line`. Two drives may have one address: their answers then spoil each other. Throws
-  /// std::invalid_argument for a wrong parameter. The reference stays valid.
-  SilverDust& add_silverdust(transport::VirtualSerialLine& line, const SilverDustParameters& parameters);
+  /// The same on a serial line. Two drives may have one address: their answers then spoil each other.
+  template <class DriveClass, class Parameters>
+  DriveClass& add(transport::VirtualSerialLine& line, const Parameters& parameters) {
+    auto drive = std::make_unique<DriveClass>(line, parameters, now_);
+    DriveClass& added = *drive;
+    line_members_.push_back(std::move(drive));
+    return added;
+  }
 
   /// The host's side of a line. Throws std::invalid_argument when there is no line of that name.
   transport::SerialLine& serial_line(std::string_view name);
@@ -81,29 +85,22 @@ class World {
   HostTime next_event() const;
 
  private:
-  struct Member {
+  struct CanMember {
     transport::VirtualCanBus* bus;
-    std::uint8_t node_id;
-    std::unique_ptr<Device> drive;
-  };
-
-  struct SerialMember {
-    transport::VirtualSerialLine* line;
-    std::unique_ptr<SilverDust> drive;
+    int node_id;
+    std::unique_ptr<Drive> drive;
   };
 
   void require_free_name(const std::string& name) const;
-
-  template <class Drive, class Parameters>
-  Drive& add(transport::VirtualCanBus& bus, const Parameters& parameters);
+  void require_free_node(const transport::VirtualCanBus& bus, int node_id) const;
   std::uint64_t delivered() const;
   void process_events();
 
   HostTime now_;
   std::vector<std::unique_ptr<transport::VirtualCanBus>> buses_;
-  std::vector<Member> members_;
+  std::vector<CanMember> can_members_;
   std::vector<std::unique_ptr<transport::VirtualSerialLine>> lines_;
-  std::vector<SerialMember> serial_members_;
+  std::vector<std::unique_ptr<Drive>> line_members_;
 };
 
 }  // namespace interpolated_motion::emulation

@@ -53,7 +53,7 @@ class Assembly {
   bool inject(const std::string& target, const std::string& command, HostTime now, std::string* reason);
 
  private:
-  using Injector = std::function<bool(const std::string& command, HostTime now, std::string* reason)>;
+  using Injector = std::function<std::optional<std::string>(const std::string& command, HostTime now)>;
 
   void add_bus(const Configuration& configuration, const BusConfiguration& bus);
   void add_emulated_can_bus(const BusConfiguration& bus);
@@ -70,8 +70,7 @@ class Assembly {
   void emulate_silverlode(const DriveConfiguration& drive, std::size_t index);
   void emulate_cyclic(const DriveConfiguration& drive, std::size_t index);
   axis::LineStart* common_start(const DriveConfiguration& drive);
-  template <class Drive>
-  void observe(const DriveConfiguration& drive, std::size_t index, Drive& emulated);
+  void observe(const DriveConfiguration& drive, std::size_t index, emulation::Drive& emulated);
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;

@@ -106,7 +106,8 @@ class MotionHardware {
   /// nothing if it is not emulated in this process. `joint` is a number in joints().
   std::optional<double> emulated_position(std::size_t joint) const;
 
-  /// Injects a fault into the emulated drive of a joint or into an emulated bus, see fault_injection.h. False
+  /// Injects a fault into the emulated drive of a joint or into an emulated bus, see emulation/drive.h and
+  /// emulation/bus_faults.h. False
   /// with a reason when `target` is not emulated or the command is unknown.
   bool inject(const std::string& target, const std::string& command, std::string* reason, HostTime now);
 

@@ -13,9 +13,10 @@ namespace interpolated_motion::hardware {
 /// counts. The samples may come while the drive moves or afterwards, from a drive emulated elsewhere.
 class PathAudit {
  public:
-  /// `axis` must outlive the audit.
-  PathAudit(const encoding::Transmission& transmission, const axis::Axis& axis)
-      : transmission_(transmission), axis_(&axis) {}
+  /// `axis` must outlive the audit. `host_time`: the drive has no clock of its own for its motion, it follows
+  /// the host's.
+  PathAudit(const encoding::Transmission& transmission, const axis::Axis& axis, bool host_time)
+      : transmission_(transmission), axis_(&axis), host_time_(host_time) {}
 
   /// Samples from `now` on belong to `path`.
   void begin(const trajectory::Path& path, HostTime now);
@@ -35,6 +36,7 @@ class PathAudit {
  private:
   encoding::Transmission transmission_;
   const axis::Axis* axis_;
+  bool host_time_;
   trajectory::Path path_;
   HostTime begin_ = kNever;
   HostTime end_ = kNever;

@@ -1,14 +1,21 @@
 #include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
 
-#include <cmath>
+#include <chrono>
+#include <utility>
 
 #include "cyclic_drive_implementation.h"
+#include "interpolated_motion_driver/emulation/cyclic/motion_watch.h"
 
 namespace interpolated_motion::emulation {
+namespace {
+
+constexpr HostDuration kRest = std::chrono::milliseconds(500);
+
+}  // namespace
 
 CyclicDrive::CyclicDrive(transport::VirtualCanBus& bus, const CyclicParameters& parameters, HostTime now)
     : implementation_(std::make_unique<Implementation>(bus, *this, parameters, now)) {
-  next_event_ = implementation_->next_event();
+  consist_of(*implementation_);
 }
 
 CyclicDrive::~CyclicDrive() = default;
@@ -17,39 +24,19 @@ const CyclicParameters& CyclicDrive::parameters() const { return implementation_
 
 CyclicCounters CyclicDrive::counters() const { return implementation_->counters(); }
 
+void CyclicDrive::observe(Observer observer) {
+  if (!observer) return set_sample_observer({});
+  const HostDuration servo_period = parameters().servo_period;
+  set_sample_observer([observer = std::move(observer), period = seconds(servo_period),
+                       watch = MotionWatch(kRest / servo_period)](const CyclicSample& sample) mutable {
+    watch.take(sample.following, sample.demand);
+    observer({sample.time, period * static_cast<double>(watch.samples()), sample.demand, sample.actual,
+              sample.velocity, watch.moving()});
+  });
+}
+
 void CyclicDrive::set_sample_observer(SampleObserver observer) {
   implementation_->set_sample_observer(std::move(observer));
-}
-
-std::int32_t CyclicDrive::position() const {
-  return static_cast<std::int32_t>(std::llround(implementation_->plant().position()));
-}
-
-void CyclicDrive::power_cycle(HostTime now, HostDuration off) {
-  implementation_->power_cycle(now, off);
-  next_event_ = implementation_->next_event();
-}
-
-void CyclicDrive::stall(bool blocked) { implementation_->plant().set_stalled(blocked); }
-
-void CyclicDrive::set_load(double counts) { implementation_->plant().set_load(counts); }
-
-void CyclicDrive::raise_fault(std::uint16_t code, std::uint8_t error_register, HostTime now) {
-  implementation_->fault(code, error_register, now);
-}
-
-void CyclicDrive::silence(bool silent, HostTime now) { implementation_->silence(silent, now); }
-
-void CyclicDrive::set_clock_error(double ppm) { implementation_->set_clock_error(ppm); }
-
-void CyclicDrive::process(HostTime now) {
-  implementation_->process(now);
-  next_event_ = implementation_->next_event();
-}
-
-void CyclicDrive::on_can_frame(const canopen::Frame& frame, HostTime time) {
-  implementation_->on_frame(frame, time);
-  next_event_ = implementation_->next_event();
 }
 
 }  // namespace interpolated_motion::emulation

@@ -40,7 +40,7 @@ PlantParameters in_samples(PlantParameters plant, double servo_ms) {
 
 CyclicDrive::Implementation::Implementation(transport::VirtualCanBus& bus, transport::CanListener& listener,
                                             const CyclicParameters& parameters, HostTime now)
-    : CanopenNode(bus, listener, node_settings(validated(parameters)), objects_, now),
+    : CanopenServo(bus, listener, node_settings(validated(parameters)), objects_, now),
       parameters_(parameters),
       servo_ms_(in_ms(parameters.servo_period)),
       objects_(parameters_),

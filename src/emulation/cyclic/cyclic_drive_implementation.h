@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "interpolated_motion_driver/emulation/canopen/canopen_node.h"
+#include "interpolated_motion_driver/emulation/canopen/canopen_servo.h"
 #include "interpolated_motion_driver/emulation/canopen/device_control.h"
 #include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
 #include "interpolated_motion_driver/emulation/cyclic/cyclic_objects.h"
@@ -12,7 +12,7 @@
 namespace interpolated_motion::emulation {
 
 // Demand and plant count in counts and servo samples inside, the fine interpolation in counts and ms.
-class CyclicDrive::Implementation : public CanopenNode {
+class CyclicDrive::Implementation : public CanopenServo {
  public:
   Implementation(transport::VirtualCanBus& bus, transport::CanListener& listener,
                  const CyclicParameters& parameters, HostTime now);
@@ -20,9 +20,8 @@ class CyclicDrive::Implementation : public CanopenNode {
   const CyclicParameters& parameters() const { return parameters_; }
   CyclicCounters counters() const { return {updates_, emergencies(), lost_frames()}; }
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
-  Plant& plant() { return plant_; }
-  const Plant& plant() const { return plant_; }
-  void fault(std::uint16_t code, std::uint8_t error_register, HostTime now);
+  Plant& plant() override { return plant_; }
+  void fault(std::uint16_t code, std::uint8_t error_register, HostTime now) override;
 
  private:
   void booted() override;

@@ -4,10 +4,11 @@
 
 #include <stdexcept>
 
+#include "interpolated_motion_driver/emulation/limits.h"
+
 namespace interpolated_motion::emulation {
 namespace {
 
-constexpr double kMaximumClockError = 100'000.0;
 constexpr std::size_t kLongestName = 32;
 constexpr HostDuration kShortestServoPeriod = std::chrono::microseconds(100);
 constexpr HostDuration kLongestServoPeriod = std::chrono::milliseconds(10);
@@ -27,7 +28,7 @@ void validate(const CyclicParameters& p) {
   require(p.node_id >= 1 && p.node_id <= 127, p, "node_id", p.node_id, "1..127");
   require(p.device_name.size() >= 1 && p.device_name.size() <= kLongestName, p, "device_name", p.device_name,
           "1..32 characters");
-  require(p.clock_error_ppm >= -kMaximumClockError && p.clock_error_ppm <= kMaximumClockError, p,
+  require(p.clock_error_ppm >= -kLargestClockError && p.clock_error_ppm <= kLargestClockError, p,
           "clock_error_ppm", p.clock_error_ppm, "-100000..100000");
   require(p.servo_period >= kShortestServoPeriod && p.servo_period <= kLongestServoPeriod, p, "servo_period",
           p.servo_period.count(), "100000..10000000 ns");

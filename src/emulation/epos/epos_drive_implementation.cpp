@@ -39,7 +39,7 @@ NodeSettings node_settings(const EposParameters& parameters) {
 
 EposDrive::Implementation::Implementation(transport::VirtualCanBus& bus, transport::CanListener& listener,
                                           const EposParameters& parameters, HostTime now)
-    : CanopenNode(bus, listener, node_settings(validated(parameters)), objects_, now),
+    : CanopenServo(bus, listener, node_settings(validated(parameters)), objects_, now),
       parameters_(parameters),
       objects_(parameters_),
       ip_(parameters_),

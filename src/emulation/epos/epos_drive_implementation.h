@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "interpolated_motion_driver/emulation/canopen/canopen_node.h"
+#include "interpolated_motion_driver/emulation/canopen/canopen_servo.h"
 #include "interpolated_motion_driver/emulation/canopen/device_control.h"
 #include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 #include "interpolated_motion_driver/emulation/epos/epos_objects.h"
@@ -15,7 +15,7 @@ namespace interpolated_motion::emulation {
 // The parts of the drive put together. Three source files: states and commands
 // (epos_drive_implementation.cpp), objects and what writing them does (epos_drive_objects.cpp), the 1 ms
 // sample (epos_drive_sample.cpp).
-class EposDrive::Implementation : public CanopenNode {
+class EposDrive::Implementation : public CanopenServo {
  public:
   Implementation(transport::VirtualCanBus& bus, transport::CanListener& listener,
                  const EposParameters& parameters, HostTime now);
@@ -23,9 +23,8 @@ class EposDrive::Implementation : public CanopenNode {
   const EposParameters& parameters() const { return parameters_; }
   EposCounters counters() const;
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
-  Plant& plant() { return plant_; }
-  const Plant& plant() const { return plant_; }
-  void fault(std::uint16_t code, std::uint8_t error_register, HostTime now);
+  Plant& plant() override { return plant_; }
+  void fault(std::uint16_t code, std::uint8_t error_register, HostTime now) override;
 
  private:
   // epos_drive_implementation.cpp

@@ -11,6 +11,7 @@ constexpr std::uint16_t kFollowingError = 0x8611;
 constexpr std::uint16_t kInterpolationError = 0xFF0C;
 constexpr std::uint16_t kPositionLimitError = 0xFF09;
 constexpr std::int64_t kNoLimit = 0xFFFFFFFF;
+constexpr double kMillisecondsPerSecond = 1e3;
 
 constexpr ObjectDictionary::Slot kPositionDemand = kObject<0x6062, 0>;
 constexpr ObjectDictionary::Slot kPositionActual = kObject<0x6064, 0>;
@@ -138,6 +139,7 @@ void EposDrive::Implementation::observe() {
   sample.samples_since_start = ip_.samples();
   sample.interpolating = interpolated_sample_;
   sample.demand = demand_.position;
+  sample.velocity = demand_.velocity * kMillisecondsPerSecond;
   sample.actual = static_cast<std::int32_t>(objects_.get(kPositionActual));
   observer_(sample);
 }

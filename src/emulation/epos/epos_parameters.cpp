@@ -4,10 +4,11 @@
 
 #include <stdexcept>
 
+#include "interpolated_motion_driver/emulation/limits.h"
+
 namespace interpolated_motion::emulation {
 namespace {
 
-constexpr double kMaximumClockError = 100'000.0;
 constexpr std::size_t kLongestName = 32;
 constexpr HostDuration kSample = std::chrono::milliseconds(1);
 
@@ -25,7 +26,7 @@ void validate(const EposParameters& p) {
   require(p.node_id >= 1 && p.node_id <= 127, p, "node_id", p.node_id, "1..127");
   require(p.device_name.size() >= 1 && p.device_name.size() <= kLongestName, p, "device_name", p.device_name,
           "1..32 characters");
-  require(p.clock_error_ppm >= -kMaximumClockError && p.clock_error_ppm <= kMaximumClockError, p,
+  require(p.clock_error_ppm >= -kLargestClockError && p.clock_error_ppm <= kLargestClockError, p,
           "clock_error_ppm", p.clock_error_ppm, "-100000..100000");
   require(p.clock_slew > HostDuration::zero() && p.clock_slew <= kSample / 2, p, "clock_slew",
           p.clock_slew.count(), "1..500000 ns");

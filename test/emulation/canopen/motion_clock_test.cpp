@@ -208,7 +208,7 @@ TEST(MotionClock, SlewMustLeaveTheSamplesInOrder) {
   for (const auto slew : {std::chrono::nanoseconds(0), std::chrono::nanoseconds(500'001)}) {
     EposParameters parameters;
     parameters.clock_slew = slew;
-    EXPECT_THROW(world.add_epos(bus, parameters), std::invalid_argument) << slew.count();
+    EXPECT_THROW(world.add<EposDrive>(bus, parameters), std::invalid_argument) << slew.count();
   }
 }
 

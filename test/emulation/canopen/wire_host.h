@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 #include "interpolated_motion_driver/emulation/world.h"
 
 namespace interpolated_motion::emulation {
@@ -38,12 +40,12 @@ inline HostDuration ms(double value) { return host_duration(value * 1e-3); }
 class WireHost {
  public:
   explicit WireHost(const EposParameters& parameters = {}) : bus(world.add_can_bus("can0", 1'000'000)) {
-    drive = &world.add_epos(bus, parameters);
+    drive = &world.add<EposDrive>(bus, parameters);
     node = parameters.node_id;
   }
 
   explicit WireHost(const CyclicParameters& parameters) : bus(world.add_can_bus("can0", 1'000'000)) {
-    cyclic = &world.add_cyclic(bus, parameters);
+    cyclic = &world.add<CyclicDrive>(bus, parameters);
     node = parameters.node_id;
   }
 

@@ -181,15 +181,15 @@ TEST(CyclicDrive, GarbageFramesDoNoHarmAndRunsRepeatExactly) {
 TEST(CyclicDrive, SharesABusWithAnEpos) {
   World world;
   auto& bus = world.add_can_bus("can0", 1'000'000);
-  world.add_epos(bus, EposParameters{});
+  world.add<EposDrive>(bus, EposParameters{});
   CyclicParameters parameters;
-  EXPECT_THROW(world.add_cyclic(bus, parameters), std::invalid_argument) << "node id 1 is taken";
+  EXPECT_THROW(world.add<CyclicDrive>(bus, parameters), std::invalid_argument) << "node id 1 is taken";
   parameters.node_id = 2;
-  world.add_cyclic(bus, parameters);
+  world.add<CyclicDrive>(bus, parameters);
   parameters.node_id = 3;
   parameters.sync_gain = 0.0;
   try {
-    world.add_cyclic(bus, parameters);
+    world.add<CyclicDrive>(bus, parameters);
     FAIL() << "sync_gain 0 was taken";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_EQ(std::string(refusal.what()),

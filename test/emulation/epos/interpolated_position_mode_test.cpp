@@ -266,7 +266,7 @@ TEST(InterpolatedPositionMode, SynchronousControlwordsStartDrivesTogether) {
   EposParameters second = stiff();
   second.node_id = 2;
   Watched a(*host.drive);
-  Watched b(host.world.add_epos(host.bus, second));
+  Watched b(host.world.add<EposDrive>(host.bus, second));
   for (host.node = 1; host.node <= 2; ++host.node) {
     host.prepare();
     host.nmt(128);

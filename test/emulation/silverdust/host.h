@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/emulation/world.h"
 
 namespace interpolated_motion::emulation {
@@ -27,7 +28,7 @@ class SerialHost {
   explicit SerialHost(const SilverDustParameters& parameters = {},
                       const transport::SerialLineParameters& line_parameters = {})
       : line(world.add_serial_line("line0", line_parameters)) {
-    drive = &world.add_silverdust(line, parameters);
+    drive = &world.add<SilverDust>(line, parameters);
     address = parameters.address;
     line.set_text_observer(
         [this](transport::SerialDirection direction, std::string_view text, HostTime time) {

@@ -58,7 +58,7 @@ TEST(SilverDustQueue, OneStartBeginsAllDrivesOfTheLine) {
   SilverDustParameters parameters;
   parameters.address = 17;
   parameters.tick_phase = std::chrono::microseconds(50);
-  SilverDust& other = host.world.add_silverdust(host.line, parameters);
+  SilverDust& other = host.world.add<SilverDust>(host.line, parameters);
   host.observe();
   HostTime other_began = kNever;
   other.set_sample_observer([&other_began](const SilverDustSample& sample) {

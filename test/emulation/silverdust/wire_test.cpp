@@ -287,7 +287,7 @@ TEST(SilverDustWire, TwoDrivesOnOneAddressSpoilTheirAnswers) {
   SilverDustParameters second;
   second.address = 17;
   second.turnaround = milliseconds(1.3);
-  host.world.add_silverdust(host.line, second);
+  host.world.add<SilverDust>(host.line, second);
   EXPECT_EQ(host.ask("@16 12 1"), "# 10 000C 0000 0000|");
   EXPECT_EQ(host.ask("@17 12 1"), "# 11 000C 0000 0000|");
   EXPECT_EQ(host.ask("@17 155 16"), "* 11|");
@@ -304,14 +304,14 @@ TEST(SilverDustWire, WrongSettingsAreRefusedByName) {
   SilverDustParameters parameters;
   parameters.address = 255;
   try {
-    world.add_silverdust(line, parameters);
+    world.add<SilverDust>(line, parameters);
     FAIL() << "the global address was taken";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_STREQ(refusal.what(), "emulated drive with address 255: address is 255, allowed is 1..254");
   }
   parameters.address = 18;
   parameters.ims_arguments = 1;
-  EXPECT_THROW(world.add_silverdust(line, parameters), std::invalid_argument);
+  EXPECT_THROW(world.add<SilverDust>(line, parameters), std::invalid_argument);
 }
 
 std::vector<std::string> garbage_log(std::uint64_t seed) {
@@ -319,7 +319,7 @@ std::vector<std::string> garbage_log(std::uint64_t seed) {
   SilverDustParameters second;
   second.address = 17;
   second.clock_error_ppm = -80.0;
-  host.world.add_silverdust(host.line, second);
+  host.world.add<SilverDust>(host.line, second);
   std::mt19937_64 random(seed);
   const std::string alphabet = "@@@16  17 255 0123456789-\r\r\n*#!x\x80";
   const std::vector<std::string> whole = {"@16 25 500 1073741824 1073742 536870912\r", "@16 253 0 0\r",

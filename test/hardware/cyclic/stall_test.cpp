@@ -1,5 +1,6 @@
 #include "hardware/host_stall.h"
 #include "interpolated_motion_driver/axis/cyclic/cyclic_axis.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -31,7 +32,8 @@ class CyclicHostStall : public HostStall {
     if (begin_ != kNever && sample.following) compare(sample.demand, seconds(sample.time - begin_));
   }
 
-  emulation::CyclicDrive& drive_ = world_.add_cyclic(bus_, drive_parameters<emulation::CyclicParameters>());
+  emulation::CyclicDrive& drive_ =
+      world_.add<emulation::CyclicDrive>(bus_, drive_parameters<emulation::CyclicParameters>());
   axis::CyclicAxis axis{axis_parameters<axis::CyclicAxisParameters>(), link.master(),
                         link.master().add_node(1)};
   HostTime begin_ = kNever;

@@ -1,5 +1,6 @@
 #include "hardware/host_stall.h"
 #include "interpolated_motion_driver/axis/epos/epos_axis.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -39,7 +40,8 @@ class EposHostStall : public HostStall {
     if (sample.interpolating) compare(sample.demand, 1e-3 * static_cast<double>(sample.samples_since_start));
   }
 
-  emulation::EposDrive& drive_ = world_.add_epos(bus_, drive_parameters<emulation::EposParameters>());
+  emulation::EposDrive& drive_ =
+      world_.add<emulation::EposDrive>(bus_, drive_parameters<emulation::EposParameters>());
   axis::EposAxis axis;
 };
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
+#include "interpolated_motion_driver/emulation/canopen/canopen_drive.h"
 #include "interpolated_motion_driver/emulation/cyclic/cyclic_parameters.h"
-#include "interpolated_motion_driver/emulation/device.h"
 #include "interpolated_motion_driver/transport/virtual_can_bus.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -38,53 +38,27 @@ struct CyclicCounters {
 /// time period (0x60C2) later. When more than 0x2100:2 of them fail to come in a row, the drive faults with
 /// EMCY 0x8700 (sync controller) and brakes by 0x605E. Modes: 8, and 0, in which the drive stands. A mode is
 /// entered at the actual position; the first target position then is to be near it.
-class CyclicDrive : public Device {
+class CyclicDrive : public CanopenDrive {
  public:
   using SampleObserver = std::function<void(const CyclicSample&)>;
 
   /// A drive switched on at `now`. `bus` must outlive it. Throws std::invalid_argument for a wrong parameter.
   CyclicDrive(transport::VirtualCanBus& bus, const CyclicParameters& parameters, HostTime now);
   ~CyclicDrive() override;
-  CyclicDrive(const CyclicDrive&) = delete;
-  CyclicDrive& operator=(const CyclicDrive&) = delete;
 
   const CyclicParameters& parameters() const;
   CyclicCounters counters() const;
 
-  /// Called at each own servo sample while the drive has booted. An empty function ends that.
+  /// The drive interpolates at rest as well: its motion begins when the demand leaves rest, and is over when
+  /// it has stood for half a second, or no longer follows target positions.
+  void observe(Observer observer) override;
+  /// Called at each own servo sample while the drive has booted, in place of any other. An empty function
+  /// ends that.
   void set_sample_observer(SampleObserver observer);
-
-  /// Position of the axis, counts, whether the drive is powered or not.
-  std::int32_t position() const;
-
-  /// Switches the supply off at `now`, and on again after `off`. All objects have their defaults then; the
-  /// axis stays where it is.
-  void power_cycle(HostTime now, HostDuration off);
-
-  /// Blocks the axis (true) or frees it (false).
-  void stall(bool blocked);
-
-  /// Changes the external load: a standing deviation of the axis in counts.
-  void set_load(double counts);
-
-  /// Reports the error `code` in an EMCY message and goes into fault reaction. Error register bits as in CiA
-  /// 301.
-  void raise_fault(std::uint16_t code, std::uint8_t error_register, HostTime now);
-
-  /// While silent the drive neither hears nor says anything, but goes on moving.
-  void silence(bool silent, HostTime now);
-
-  /// Changes the error of the drive's crystal from its next sample on, ppm.
-  void set_clock_error(double ppm);
-
-  HostTime next_event() const override { return next_event_; }
-  void process(HostTime now) override;
-  void on_can_frame(const canopen::Frame& frame, HostTime time) override;
 
  private:
   class Implementation;
 
-  HostTime next_event_ = kNever;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "interpolated_motion_driver/emulation/drive.h"
 #include "interpolated_motion_driver/emulation/silverdust/parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust/program.h"
 #include "interpolated_motion_driver/transport/virtual_serial_line.h"
@@ -50,56 +51,49 @@ enum class SilverDustFault { OverTemperature, OverVoltage, LowVoltage, MovingErr
 /// - An over-temperature lasts until CIS.
 ///
 /// The drive computes its ticks when it is asked: while nobody observes it, time passes in leaps.
-class SilverDust : public transport::SerialListener {
+///
+/// Its own commands: `fault over_temperature|over_voltage|low_voltage|moving_error|holding_error`, `nak
+/// COMMAND CODE COUNT` (see refuse_next()).
+class SilverDust : public Drive, public transport::SerialListener {
  public:
   using SampleObserver = std::function<void(const SilverDustSample&)>;
 
   /// A drive on `line`, which must outlive it. Throws std::invalid_argument for a wrong parameter.
   SilverDust(transport::VirtualSerialLine& line, const SilverDustParameters& parameters, HostTime now);
   ~SilverDust() override;
-  SilverDust(const SilverDust&) = delete;
-  SilverDust& operator=(const SilverDust&) = delete;
 
   const SilverDustParameters& parameters() const;
   SilverDustCounters counters() const;
 
-  /// Called at each own servo tick while the drive is awake. An empty function ends that.
+  void observe(Observer observer) override;
+  /// Called at each own servo tick while the drive is awake, in place of any other. An empty function ends
+  /// that.
   void set_sample_observer(SampleObserver observer);
 
-  /// Actual position, counts, as of the last process(), whether the drive is powered or not.
-  std::int32_t position() const;
+  std::int32_t position() const override;
 
   /// Stores a standalone program; RUN starts it.
   void load_program(std::vector<ProgramStep> steps);
 
-  /// Switches the supply off at `now`, and on again after `off`. All volatile state is lost.
-  void power_cycle(HostTime now, HostDuration off);
-
-  /// Blocks the axis (true) or frees it (false).
-  void stall(bool blocked);
+  void power_cycle(HostTime now, HostDuration off) override;
+  void stall(bool blocked) override;
+  void silence(bool silent, HostTime now) override;
+  void set_clock_error(double ppm) override;
 
   /// Makes the drive report a fault; kill motor conditions apply.
   void raise_fault(SilverDustFault fault, HostTime now);
 
-  /// While silent the drive neither hears nor says anything, but goes on moving.
-  void silence(bool silent, HostTime now);
-
-  /// Changes the error of the drive's crystal from its next tick on, ppm.
-  void set_clock_error(double ppm);
-
   /// The next `count` commands with number `command` are not executed but answered with a NAK of `code`.
   void refuse_next(int command, int code, int count);
 
-  /// Time of the drive's next own action, kNever when it only answers.
-  HostTime next_event() const { return next_event_; }
-
-  /// Computes everything up to `now`.
-  void process(HostTime now);
-
+  HostTime next_event() const override { return next_event_; }
+  void process(HostTime now) override;
   void on_character(char value, HostTime time) override;
 
  private:
   class Implementation;
+
+  std::vector<FaultCommand> own_faults(HostTime now) override;
 
   HostTime next_event_ = kNever;
   std::unique_ptr<Implementation> implementation_;

@@ -1,0 +1,57 @@
+#include "interpolated_motion_driver/emulation/bus_faults.h"
+
+#include <cstdint>
+#include <string>
+
+namespace interpolated_motion::emulation {
+namespace {
+
+constexpr int kHostPort = 0;
+constexpr FaultNumber kIdentifier{"ID", 0.0, 0x7FF};
+
+void drop_frames(transport::VirtualCanBus& bus, std::uint32_t id, int count) {
+  bus.drop_if(
+      [id, left = count](const canopen::Frame& frame) mutable { return frame.id == id && left-- > 0; });
+}
+
+}  // namespace
+
+std::vector<FaultCommand> faults_of(transport::VirtualCanBus& bus, HostTime now) {
+  using Numbers = FaultCommand::Numbers;
+  return {{"drop", {kFaultCount}, [&bus](const Numbers& n) { bus.drop_next(static_cast<int>(n[0])); }},
+          {"drop_id",
+           {kIdentifier, kFaultCount},
+           [&bus](const Numbers& n) {
+             drop_frames(bus, static_cast<std::uint32_t>(n[0]), static_cast<int>(n[1]));
+           }},
+          {"disconnect",
+           {kFaultSwitch},
+           [&bus, now](const Numbers& n) { bus.connect(kHostPort, n[0] == 0.0, now); }},
+          {"bus_off", {kFaultSeconds}, [&bus, now](const Numbers& n) {
+             bus.host_bus_off(now + host_duration(n[0]));
+           }}};
+}
+
+std::vector<FaultCommand> faults_of(transport::VirtualSerialLine& line, HostTime now) {
+  using transport::SerialDirection;
+  using Numbers = FaultCommand::Numbers;
+  const auto lose = [&line](SerialDirection direction) {
+    return [&line, direction](const Numbers& n) { line.lose_next(direction, static_cast<int>(n[0])); };
+  };
+  const auto garble = [&line](SerialDirection direction) {
+    return [&line, direction](const Numbers& n) { line.garble_next(direction, static_cast<int>(n[0])); };
+  };
+  const auto garbage = [&line, now](const std::string& text) {
+    line.inject(SerialDirection::DriveToHost, text, now);
+  };
+  return {{"lose_requests", {kFaultCount}, lose(SerialDirection::HostToDrive)},
+          {"lose_replies", {kFaultCount}, lose(SerialDirection::DriveToHost)},
+          {"garble_requests", {kFaultCount}, garble(SerialDirection::HostToDrive)},
+          {"garble_replies", {kFaultCount}, garble(SerialDirection::DriveToHost)},
+          {"garbage", {}, {}, garbage},
+          {"disconnect", {kFaultSwitch}, [&line, now](const Numbers& n) {
+             line.connect(kHostPort, n[0] == 0.0, now);
+           }}};
+}
+
+}  // namespace interpolated_motion::emulation
