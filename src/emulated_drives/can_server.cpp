@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/emulation/bus_faults.h"
-#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 #include "interpolated_motion_driver/transport/host_clock.h"
 
 namespace interpolated_motion::emulated_drives {
@@ -19,40 +19,24 @@ constexpr int kHostPort = 0;
 constexpr HostDuration kAnswered = std::chrono::milliseconds(2);
 constexpr HostDuration kIdleWait = std::chrono::milliseconds(10);
 
-transport::SocketcanParameters interface_parameters(const CanDrives& list) {
+transport::SocketcanParameters interface_parameters(const hardware::BusConfiguration& bus) {
   transport::SocketcanParameters parameters;
-  parameters.interface = list.interface;
-  parameters.bitrate = list.bitrate;
+  parameters.interface = bus.name;
+  parameters.bitrate = bus.bitrate;
   parameters.confirmed = false;
   return parameters;
 }
 
 }  // namespace
 
-CanServer::CanServer(boost::asio::io_context& io, const CanDrives& list, const std::string& samples_folder,
+CanServer::CanServer(boost::asio::io_context& io, const ServedBus& served, const std::string& samples_folder,
                      Announcement announce)
-    : Server(io, std::move(announce)),
-      bus_(world_.add_can_bus(list.interface, static_cast<int>(list.bitrate))),
-      interface_(io, interface_parameters(list), world_.now()),
-      interface_name_(list.interface) {
-  for (const auto& drive : list.drives) add_drive(drive, samples_folder);
-  add_target(interface_name_, [this](const std::string& command) {
-    return emulation::obey_fault(command, emulation::faults_of(bus_, world_.now()));
-  });
-}
+    : Server(io, served, samples_folder, std::move(announce)),
+      wire_(*std::get<transport::VirtualCanBus*>(bus_)),
+      interface_(io, interface_parameters(served.bus), world_.now()) {}
 
-void CanServer::add_drive(const NamedDrive<emulation::EposParameters>& drive,
-                          const std::string& samples_folder) {
-  emulation::EposDrive& added = world_.add<emulation::EposDrive>(bus_, drive.parameters);
-  const std::string node = std::to_string(drive.parameters.node_id);
-  nodes_ += (nodes_.empty() ? "" : ", ") + node;
-  for (const std::string& name : {drive.name, node}) {
-    add_target(name,
-               [this, &added](const std::string& command) { return added.inject(command, world_.now()); });
-  }
-  if (samples_folder.empty()) return;
-  SampleFile& file = samples_.emplace_back(samples_folder, drive.name);
-  added.observe([&file](const emulation::DemandSample& sample) { file.add(sample); });
+std::vector<emulation::FaultCommand> CanServer::bus_faults() {
+  return emulation::faults_of(wire_, world_.now());
 }
 
 void CanServer::turn() {
@@ -61,14 +45,14 @@ void CanServer::turn() {
   take_frames();
   run_drives(now);
   send_frames(now);
-  const bool talking = now - last_frame_ < kAnswered || bus_.next_event() != kNever;
+  const bool talking = now - last_frame_ < kAnswered || wire_.next_event() != kNever;
   turn_at(now + (talking ? kAnswered : kIdleWait));
 }
 
 void CanServer::follow_interface(HostTime now) {
   if (interface_.poll_interface(now)) {
     const bool up = interface_.state() == transport::SocketcanState::Up;
-    if (up) bus_.set_instantaneous(interface_.interface()->bitrate.has_value());
+    if (up) wire_.set_instantaneous(interface_.interface()->bitrate.has_value());
     announce(up ? ready_text() : interface_.status_text());
     for (const std::string& advice : interface_.advice()) announce("advice: " + advice);
   }
@@ -78,14 +62,14 @@ void CanServer::follow_interface(HostTime now) {
 std::string CanServer::ready_text() const {
   const auto& bitrate = interface_.interface()->bitrate;
   const std::string timing = bitrate ? fmt::format("at {} bit/s", *bitrate)
-                                     : fmt::format("with the bit times of {} bit/s", bus_.bitrate());
-  return fmt::format("ready: EPOS2 drives with node ids {} on {} {}", nodes_, interface_name_, timing);
+                                     : fmt::format("with the bit times of {} bit/s", wire_.bitrate());
+  return fmt::format("ready: {} on {} {}", drives_text(), name(), timing);
 }
 
 void CanServer::wait_for_frames() {
   // While the drives' bus is full, frames wait in the socket.
   const bool open = interface_.state() == transport::SocketcanState::Up;
-  if (waiting_ || !open || bus_.free_slots(kHostPort) == 0) return;
+  if (waiting_ || !open || wire_.free_slots(kHostPort) == 0) return;
   waiting_ = true;
   interface_.async_wait_readable([this](const boost::system::error_code&) {
     waiting_ = false;
@@ -94,10 +78,10 @@ void CanServer::wait_for_frames() {
 }
 
 void CanServer::take_frames() {
-  while (bus_.free_slots(kHostPort) > 0) {
+  while (wire_.free_slots(kHostPort) > 0) {
     const auto received = interface_.receive();
     if (!received) return;
-    bus_.host().send(received->frame, received->time);
+    wire_.host().send(received->frame, received->time);
     last_frame_ = received->time;
   }
 }
@@ -105,7 +89,7 @@ void CanServer::take_frames() {
 void CanServer::run_drives(HostTime now) {
   do {
     world_.advance(now);
-    while (const auto frame = bus_.host().receive()) {
+    while (const auto frame = wire_.host().receive()) {
       if (frame->own) continue;
       outgoing_.push_back(frame->frame);
     }

@@ -1,8 +1,9 @@
 #include "drive_list.h"
 
 #include <limits>
-#include <map>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -17,13 +18,15 @@ namespace {
 using hardware::BusConfiguration;
 using hardware::BusType;
 using hardware::Configuration;
+using hardware::DriveConfiguration;
 using hardware::TransportKind;
+using hardware::UrdfLimits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The limits of a joint mean nothing to its drive: without the URDF, they are as wide as can be.
-std::map<std::string, trajectory::JointLimits> any_limits(const YAML::Node& drives) {
-  std::map<std::string, trajectory::JointLimits> limits;
+UrdfLimits any_limits(const YAML::Node& drives) {
+  UrdfLimits limits;
   for (const auto& drive : drives) {
     trajectory::JointLimits& joint = limits[drive.first.Scalar()];
     joint.min_position = -kInfinity;
@@ -44,29 +47,20 @@ Configuration load_configuration(const std::string& file) {
   }
 }
 
-CanDrives can_drives(const Configuration& configuration, const BusConfiguration& bus, std::string interface) {
-  CanDrives list;
-  list.interface = std::move(interface);
-  list.bitrate = bus.bitrate;
-  for (const auto& drive : configuration.drives) {
-    if (drive.bus == bus.name && !drive.emulation.missing)
-      list.drives.push_back({drive.joint, drive.emulation.drive});
+/// The drives of a bus of the file, on the interface or link `place`.
+ServedBus served(const Configuration& configuration, const BusConfiguration& bus, const std::string& place,
+                 const std::string& file) {
+  ServedBus served{bus, {}};
+  served.bus.name = place;
+  bool any = false;
+  for (const DriveConfiguration& drive : configuration.drives) {
+    if (drive.bus != bus.name) continue;
+    any = true;
+    if (!drive.emulation.missing) served.drives.push_back(drive);
   }
-  return list;
-}
-
-SerialDrives serial_drives(const Configuration& configuration, const BusConfiguration& bus,
-                           std::string link) {
-  SerialDrives list;
-  list.link = std::move(link);
-  list.line.baud = static_cast<int>(bus.serial.line.baud);
-  list.line.bits_per_character = bus.serial.line.bits_per_character;
-  list.line.wiring = bus.serial.wiring;
-  for (const auto& drive : configuration.drives) {
-    if (drive.bus == bus.name && !drive.emulation.missing)
-      list.drives.push_back({drive.joint, drive.silverlode.emulated});
-  }
-  return list;
+  if (any) return served;
+  throw std::invalid_argument(
+      fmt::format("{}: no drive is on bus {}, so there is nothing to serve on {}", file, bus.name, place));
 }
 
 const BusConfiguration& choose_bus(const Configuration& configuration, const Options& options, BusType type) {
@@ -81,67 +75,77 @@ const BusConfiguration& choose_bus(const Configuration& configuration, const Opt
     ++found;
   }
   if (found == 1) return *chosen;
-  throw std::invalid_argument(
-      fmt::format("{}: choose a bus with --bus; of type {} there are: {}", options.config_file,
-                  type == BusType::Canopen ? "canopen" : "silverlode", names.empty() ? "none" : names));
+  throw std::invalid_argument(fmt::format("{}: choose a bus with --bus; of type {} there are: {}",
+                                          options.config_file, hardware::name_of(type),
+                                          names.empty() ? "none" : names));
 }
 
 /// All buses that lead out of the driver's process.
-DriveList drives_of_real_buses(const Configuration& configuration, const std::string& file) {
-  DriveList list;
+std::vector<ServedBus> drives_of_real_buses(const Configuration& configuration, const std::string& file) {
+  std::vector<ServedBus> list;
   for (const BusConfiguration& bus : configuration.buses) {
     if (bus.transport == TransportKind::Socketcan)
-      list.can.push_back(can_drives(configuration, bus, bus.socketcan.interface));
+      list.push_back(served(configuration, bus, bus.socketcan.interface, file));
     if (bus.transport == TransportKind::Serial)
-      list.serial.push_back(serial_drives(configuration, bus, bus.port.device));
+      list.push_back(served(configuration, bus, bus.port.device, file));
   }
-  if (!list.can.empty() || !list.serial.empty()) return list;
+  if (!list.empty()) return list;
   throw std::invalid_argument(
       fmt::format("{}: no bus has the transport socketcan or serial; say where to serve by --can INTERFACE "
                   "or --serial LINK",
                   file));
 }
 
-DriveList drives_of_file(const Options& options) {
-  const Configuration configuration = load_configuration(options.config_file);
-  if (options.interface.empty() && options.link.empty())
-    return drives_of_real_buses(configuration, options.config_file);
-  DriveList list;
+std::vector<ServedBus> drives_of_file(const Options& options) {
+  const std::string& file = options.config_file;
+  const Configuration configuration = load_configuration(file);
+  if (options.interface.empty() && options.link.empty()) return drives_of_real_buses(configuration, file);
+  std::vector<ServedBus> list;
+  const auto add = [&](BusType type, const std::string& place) {
+    if (!place.empty())
+      list.push_back(served(configuration, choose_bus(configuration, options, type), place, file));
+  };
+  add(BusType::Canopen, options.interface);
+  add(BusType::Silverlode, options.link);
+  return list;
+}
+
+/// Drives on a bus of their own, each as it leaves the factory: what `settings` does not say has its default.
+ServedBus drives_as_delivered(BusType type, const std::string& place, const std::vector<int>& numbers,
+                              const std::string& settings) {
+  ServedBus served;
+  served.bus.name = place;
+  served.bus.type = type;
+  for (const int number : numbers) {
+    const std::string name = std::to_string(number);
+    YAML::Node drive = YAML::Load(settings);
+    drive["bus"] = place;
+    drive[hardware::drive_numbers(type).key] = number;
+    YAML::Node drives;
+    drives[name] = drive;
+    served.drives.push_back(hardware::parse_drive(name, hardware::ParameterReader(drive, "drives/" + name),
+                                                  any_limits(drives), hardware::drive_kinds()));
+  }
+  return served;
+}
+
+std::vector<ServedBus> drives_as_delivered(const Options& options) {
+  std::vector<ServedBus> list;
   if (!options.interface.empty()) {
-    const auto& bus = choose_bus(configuration, options, BusType::Canopen);
-    list.can.push_back(can_drives(configuration, bus, options.interface));
+    list.push_back(drives_as_delivered(BusType::Canopen, options.interface, options.nodes,
+                                       "{type: epos_ipm, counts_per_revolution: 2000}"));
   }
   if (!options.link.empty()) {
-    const auto& bus = choose_bus(configuration, options, BusType::Silverlode);
-    list.serial.push_back(serial_drives(configuration, bus, options.link));
+    list.push_back(drives_as_delivered(BusType::Silverlode, options.link, options.addresses,
+                                       "{type: silverlode_ims, counts_per_revolution: 4000}"));
   }
   return list;
 }
 
-DriveList drives_as_delivered(const Options& options) {
-  DriveList list;
-  if (!options.interface.empty()) list.can.push_back({options.interface, 1'000'000, {}});
-  for (const int node : options.nodes) {
-    emulation::EposParameters parameters;
-    parameters.node_id = static_cast<std::uint8_t>(node);
-    parameters.serial_number = static_cast<std::uint32_t>(node);
-    list.can.front().drives.push_back({std::to_string(node), parameters});
-  }
-  if (!options.link.empty()) list.serial.push_back({options.link, {}, {}});
-  for (const int address : options.addresses) {
-    emulation::SilverDustParameters parameters;
-    parameters.address = address;
-    list.serial.front().drives.push_back({std::to_string(address), parameters});
-  }
-  return list;
-}
-
-void set_clock_errors(const std::vector<double>& errors, DriveList& list) {
+void set_clock_errors(const std::vector<double>& errors, std::vector<ServedBus>& list) {
   std::vector<double*> clocks;
-  for (CanDrives& bus : list.can)
-    for (auto& drive : bus.drives) clocks.push_back(&drive.parameters.clock_error_ppm);
-  for (SerialDrives& line : list.serial)
-    for (auto& drive : line.drives) clocks.push_back(&drive.parameters.clock_error_ppm);
+  for (ServedBus& served : list)
+    for (DriveConfiguration& drive : served.drives) clocks.push_back(&drive.emulation.clock_error_ppm);
   if (errors.empty()) return;
   if (errors.size() != 1 && errors.size() != clocks.size()) {
     throw std::invalid_argument(
@@ -153,12 +157,12 @@ void set_clock_errors(const std::vector<double>& errors, DriveList& list) {
 
 }  // namespace
 
-DriveList make_drive_list(const Options& options) {
-  DriveList list = options.config_file.empty() ? drives_as_delivered(options) : drives_of_file(options);
-  for (CanDrives& bus : list.can)
-    if (options.bitrate != 0) bus.bitrate = options.bitrate;
-  for (SerialDrives& line : list.serial)
-    if (options.baud != 0) line.line.baud = options.baud;
+std::vector<ServedBus> make_drive_list(const Options& options) {
+  auto list = options.config_file.empty() ? drives_as_delivered(options) : drives_of_file(options);
+  for (ServedBus& served : list) {
+    if (options.bitrate != 0) served.bus.bitrate = options.bitrate;
+    if (options.baud != 0) served.bus.serial.line.baud = static_cast<std::uint32_t>(options.baud);
+  }
   set_clock_errors(options.clock_errors, list);
   return list;
 }

@@ -16,6 +16,7 @@
 #include <boost/asio/streambuf.hpp>
 
 #include "can_server.h"
+#include "drive_list.h"
 #include "options.h"
 #include "serial_server.h"
 
@@ -82,13 +83,17 @@ class CommandInput {
   boost::asio::streambuf buffer_;
 };
 
+std::unique_ptr<Server> make_server(boost::asio::io_context& io, const ServedBus& served,
+                                    const std::string& samples_folder) {
+  if (served.bus.type == hardware::BusType::Canopen)
+    return std::make_unique<CanServer>(io, served, samples_folder, say);
+  return std::make_unique<SerialServer>(io, served, samples_folder, say);
+}
+
 Servers make_servers(boost::asio::io_context& io, const Options& options) {
-  const DriveList list = make_drive_list(options);
   Servers servers;
-  for (const CanDrives& drives : list.can)
-    servers.push_back(std::make_unique<CanServer>(io, drives, options.samples_folder, say));
-  for (const SerialDrives& drives : list.serial)
-    servers.push_back(std::make_unique<SerialServer>(io, drives, options.samples_folder, say));
+  for (const ServedBus& served : make_drive_list(options))
+    servers.push_back(make_server(io, served, options.samples_folder));
   return servers;
 }
 

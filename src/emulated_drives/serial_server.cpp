@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/emulation/bus_faults.h"
-#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/transport/host_clock.h"
 
 namespace interpolated_motion::emulated_drives {
@@ -17,33 +17,15 @@ constexpr HostDuration kLongestWait = std::chrono::milliseconds(100);
 
 }  // namespace
 
-SerialServer::SerialServer(boost::asio::io_context& io, const SerialDrives& list,
+SerialServer::SerialServer(boost::asio::io_context& io, const ServedBus& served,
                            const std::string& samples_folder, Announcement announce)
-    : Server(io, std::move(announce)),
+    : Server(io, served, samples_folder, std::move(announce)),
       io_(io),
-      line_(world_.add_serial_line(list.link, list.line)),
-      link_(list.link) {
-  for (const auto& drive : list.drives) add_drive(drive, samples_folder);
-  add_target(link_,
-             [this](const std::string& command) { return emulation::obey_fault(command, line_faults()); });
+      line_(*std::get<transport::VirtualSerialLine*>(bus_)) {
   plug_in();
 }
 
-void SerialServer::add_drive(const NamedDrive<emulation::SilverDustParameters>& drive,
-                             const std::string& samples_folder) {
-  emulation::SilverDust& added = world_.add<emulation::SilverDust>(line_, drive.parameters);
-  const std::string address = std::to_string(drive.parameters.address);
-  addresses_ += (addresses_.empty() ? "" : ", ") + address;
-  for (const std::string& name : {drive.name, address}) {
-    add_target(name,
-               [this, &added](const std::string& command) { return added.inject(command, world_.now()); });
-  }
-  if (samples_folder.empty()) return;
-  SampleFile& file = samples_.emplace_back(samples_folder, drive.name);
-  added.observe([&file](const emulation::DemandSample& sample) { file.add(sample); });
-}
-
-std::vector<emulation::FaultCommand> SerialServer::line_faults() {
+std::vector<emulation::FaultCommand> SerialServer::bus_faults() {
   auto faults = emulation::faults_of(line_, world_.now());
   faults.push_back({"unplug", {emulation::kFaultSeconds}, [this](const std::vector<double>& n) {
                       unplug(host_duration(n[0]));
@@ -59,9 +41,8 @@ void SerialServer::unplug(HostDuration length) {
 
 void SerialServer::plug_in() {
   plug_in_at_ = kNever;
-  terminal_ = std::make_unique<transport::PseudoTerminal>(io_, link_);
-  announce(fmt::format("ready: SilverLode drives with addresses {} on {} at {} bit/s", addresses_, link_,
-                       line_.parameters().baud));
+  terminal_ = std::make_unique<transport::PseudoTerminal>(io_, name());
+  announce(fmt::format("ready: {} on {} at {} bit/s", drives_text(), name(), line_.parameters().baud));
 }
 
 void SerialServer::turn() {

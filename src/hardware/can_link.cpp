@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpolated_motion_driver/hardware/can_bits.h"
+
 namespace interpolated_motion::hardware {
 
 namespace {
 
-/// An interpolation data record is an 8-byte frame: at most 135 bits (Davis et al.).
-constexpr double kRecordBits = 135.0;
+constexpr int kRecordBytes = 8;
 
 canopen::MasterParameters master_parameters(const BusConfiguration& configuration) {
   canopen::MasterParameters parameters;
@@ -73,7 +74,8 @@ std::vector<std::string> CanLink::unexpected_traffic() const {
 }
 
 double CanLink::record_bus_time() const {
-  return kRecordBits / (master_.parameters().bitrate * master_.parameters().max_bulk_load);
+  return longest_frame_bits(kRecordBytes) /
+         (master_.parameters().bitrate * master_.parameters().max_bulk_load);
 }
 
 }  // namespace interpolated_motion::hardware

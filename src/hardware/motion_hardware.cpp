@@ -321,7 +321,9 @@ std::optional<double> MotionHardware::emulated_position(std::size_t joint) const
 
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,
                             HostTime) {
-  return implementation_->assembly.inject(target, command, implementation_->now, reason);
+  auto refused = implementation_->assembly.inject(target, command, implementation_->now);
+  if (refused) *reason = std::move(*refused);
+  return !refused;
 }
 
 }  // namespace interpolated_motion::hardware

@@ -49,7 +49,7 @@ class Can:
 
 class Drives:
     def __init__(self, *arguments):
-        self.process = subprocess.Popen([PROGRAM, "--can", "vcan0", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([PROGRAM, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, bufsize=1)
 
     def line(self):
@@ -70,7 +70,7 @@ def can():
 
 
 @pytest.fixture
-def start():
+def run():
     started = []
 
     def begin(*arguments):
@@ -82,6 +82,11 @@ def start():
         if drives.process.poll() is None:
             drives.process.kill()
             drives.process.wait()
+
+
+@pytest.fixture
+def start(run):
+    return lambda *arguments: run("--can", "vcan0", *arguments)
 
 
 def test_drives_boot_and_answer(can, start):
@@ -106,6 +111,11 @@ def test_faults_come_from_the_standard_input(can, start):
     assert drives.command("7 stall 1").startswith('refused: "7" is neither a drive nor an interface')
     assert drives.command("1 explode").startswith('refused: "explode" is no fault')
     assert drives.command("vcan0 drop_id 0x581 1") == "done: vcan0 drop_id 0x581 1"
+    for number in ("nan", "1e300", "-1000000"):
+        refused = f'refused: "clock {number}": PPM is {number}; it must be a number within -100000..100000'
+        assert drives.command(f"1 clock {number}") == refused
+    assert drives.command("2 power_cycle nan") == 'refused: "power_cycle nan": SECONDS is nan; it must be a number within 0..3600'
+    assert drives.command("vcan0 bus_off 1e300").startswith('refused: "bus_off 1e300": SECONDS is 1e300; it must be')
     can.send(0x601, struct.pack("<BHB4x", 0x40, 0x1018, 1))
     with pytest.raises(AssertionError, match="no frame 0x581"):
         can.wait_for(0x581, timeout=1.0)
@@ -118,6 +128,41 @@ def test_the_drives_of_a_configuration(can, start):
     can.wait_for(0x702)
     assert drives.command("joint2 power_cycle 0.1") == "done: joint2 power_cycle 0.1"
     assert can.wait_for(0x702) == b"\0"
+
+
+def configuration(folder, drives, buses="can0: {type: canopen, transport: socketcan, interface: vcan0}"):
+    file = folder / f"arm{len(list(folder.iterdir()))}.yaml"
+    joints = ", ".join(drives)
+    lines = "\n".join(f"  {joint}: {{{drive}, counts_per_revolution: 2000}}" for joint, drive in drives.items())
+    file.write_text(f"joints: [{joints}]\nbuses:\n  {buses}\ndrives:\n{lines}\n")
+    return str(file)
+
+
+def test_drives_of_several_kinds_share_a_bus(can, run, tmp_path):
+    drives = run("--config", configuration(tmp_path, {
+        "base": "bus: can0, type: cyclic, node_id: 1", "elbow": "bus: can0, type: epos_ipm, node_id: 2",
+        "wrist": "bus: can0, type: cyclic, node_id: 3"}))
+    assert drives.line() == ("ready: cyclic drives with node ids 1, 3 and EPOS2 drives with node ids 2 on vcan0 "
+                             "with the bit times of 1000000 bit/s")
+    can.wait_for(0x703)
+    assert can.read_object(1, 0x6502, 0)[1] == 1 << 7  # mode 8, cyclic synchronous position
+    assert can.read_object(2, 0x1018, 1)[1] == 0xFB  # maxon motor
+    assert can.read_object(3, 0x6502, 0)[1] == 1 << 7
+    assert drives.command("wrist emcy 0x2310") == "done: wrist emcy 0x2310"
+    assert can.wait_for(0x083)[:2] == b"\x10\x23"
+
+
+def test_a_configuration_that_cannot_be_served_is_refused_in_a_sentence(run, tmp_path):
+    one = {"base": "bus: can0, type: cyclic, node_id: 1"}
+    two = "can0: {type: canopen, transport: socketcan, interface: vcan0}\n  can1: {type: canopen, transport: socketcan, interface: vcan1}"
+    for file, reason in ((configuration(tmp_path, {**one, "elbow": "bus: can0, type: epos_ipm, node_id: 1"}),
+                          "Parameter drives/elbow/node_id is 1, which joint base has on bus can0 already."),
+                         (configuration(tmp_path, {"base": "bus: can0, type: hovering, node_id: 1"}),
+                          'Parameter drives/base/type is "hovering"; allowed: epos_ipm, silverlode_ims, cyclic.'),
+                         (configuration(tmp_path, one, two), "no drive is on bus can1, so there is nothing to serve on vcan1")):
+        drives = run("--config", file)
+        assert drives.process.wait(timeout=PATIENCE) == 2
+        assert reason in drives.process.stderr.read()
 
 
 def test_the_interface_may_go_down_and_come_back(can, start):

@@ -5,8 +5,8 @@
 namespace interpolated_motion::hardware {
 
 /// Whether the parts of a configuration, each of them right by itself, go together: drives and the types of
-/// their buses, node ids and addresses, interfaces and ports, common starts. Throws std::invalid_argument
-/// that names the parameters and what to do.
+/// their buses, node ids and addresses, interfaces and ports, and what each kind of drive asks for. Throws
+/// std::invalid_argument that names the parameters and what to do.
 void check_parts(const Configuration& configuration);
 
 /// Whether each CAN bus can carry what flows whether anything moves or not, beside what is reserved for

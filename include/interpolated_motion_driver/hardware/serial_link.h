@@ -1,5 +1,7 @@
 #pragma once
 
+#include <any>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +22,10 @@ class SerialLink : public BusLink {
              std::unique_ptr<BusDevice> device = nullptr);
 
   silverlode::LineMaster& master() { return master_; }
+
+  /// What the axes of one kind share on this line: empty until the first one puts it there. It ends before
+  /// master() does.
+  std::any& shared_by(const DriveKind& kind) { return shared_[&kind]; }
   const std::string& name() const override { return master_.line_name(); }
 
   void receive(const WireObserver& observer) override;
@@ -42,6 +48,7 @@ class SerialLink : public BusLink {
 
   transport::SerialLine& line_;
   silverlode::LineMaster master_;
+  std::map<const DriveKind*, std::any> shared_;
   std::string received_;  ///< the line being received
   struct Sent {
     std::string text;

@@ -1,6 +1,8 @@
-#include "interpolated_motion_driver/hardware/emulation_configuration.h"
+#include "interpolated_motion_driver/hardware/epos/configuration.h"
 
-#include <cmath>
+#include <cstdint>
+
+#include "interpolated_motion_driver/hardware/drive_parameters.h"
 
 namespace interpolated_motion::hardware {
 
@@ -22,7 +24,6 @@ void parse_identity(ParameterReader& reader, EposParameters& drive) {
 }
 
 void parse_physics(ParameterReader& reader, EposParameters& drive) {
-  drive.clock_error_ppm = reader.number("clock_error_ppm", 0.0, -1e5, 1e5);
   drive.tick_phase = host_duration(reader.number("tick_phase", 0.0, 0.0, 0.000999));
   drive.boot_time = host_duration(reader.number("boot_time", seconds(drive.boot_time), 0.001, 60.0));
   drive.plant.lag_ms = reader.number("lag_ms", drive.plant.lag_ms, 0.0, 1000.0);
@@ -57,22 +58,28 @@ void parse_unknowns(ParameterReader& reader, EposParameters& drive) {
                     {{"resume", HaltRelease::Resume}, {"needs_new_start", HaltRelease::NeedsNewStart}});
 }
 
+EposParameters parse_emulated(ParameterReader& reader, const DriveConfiguration& drive) {
+  EposParameters emulated;
+  emulated.node_id = static_cast<std::uint8_t>(drive.number);
+  emulated.serial_number = static_cast<std::uint32_t>(drive.number);
+  emulated.counts_per_revolution = static_cast<std::int32_t>(drive.transmission.counts_per_revolution);
+  emulated.initial_position = drive.emulation.initial_position;
+  parse_identity(reader, emulated);
+  parse_physics(reader, emulated);
+  parse_unknowns(reader, emulated);
+  return emulated;
+}
+
 }  // namespace
 
-EmulationConfiguration parse_emulation(ParameterReader reader, const DriveConfiguration& drive) {
-  EmulationConfiguration emulation;
-  emulation.missing = reader.boolean("missing", false);
-  emulation.drive.node_id = static_cast<std::uint8_t>(drive.node_id);
-  emulation.drive.serial_number = static_cast<std::uint32_t>(drive.node_id);
-  emulation.drive.counts_per_revolution = static_cast<std::int32_t>(drive.transmission.counts_per_revolution);
-  const double position = reader.number("initial_position", 0.0, -1e6, 1e6);
-  emulation.drive.initial_position =
-      static_cast<std::int32_t>(std::lround(drive.transmission.counts(position)));
-  parse_identity(reader, emulation.drive);
-  parse_physics(reader, emulation.drive);
-  parse_unknowns(reader, emulation.drive);
-  reader.refuse_unknown();
-  return emulation;
+std::shared_ptr<const EposSettings> parse_epos(ParameterReader& reader, ParameterReader& emulation,
+                                               const DriveConfiguration& drive) {
+  constexpr double kOfStreams = 8.0;
+  auto settings = std::make_shared<EposSettings>();
+  settings->stream_deviation_bound =
+      parse_stream_deviation_bound(reader, drive, kOfStreams * drive.deviation_bound);
+  settings->emulated = parse_emulated(emulation, drive);
+  return settings;
 }
 
 }  // namespace interpolated_motion::hardware

@@ -1,0 +1,116 @@
+#include "interpolated_motion_driver/hardware/drive_configuration.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/emulation/limits.h"
+#include "interpolated_motion_driver/hardware/drive_kind.h"
+
+namespace interpolated_motion::hardware {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Without a limit of its own a joint may reach its velocity limit within this time.
+constexpr double kDefaultAccelerationTime = 0.1;
+
+/// A limit of the configuration may tighten that of the URDF, never widen it.
+double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper) {
+  const double value = reader.number(key, urdf, -kInfinity, kInfinity);
+  const bool wider = upper ? value > urdf : value < urdf;
+  if (wider)
+    reader.fail(key, fmt::format("is {}; the URDF allows {} and may only be tightened", value, urdf));
+  return value;
+}
+
+trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader reader,
+                                     const UrdfLimits& urdf) {
+  const auto found = urdf.find(joint);
+  if (found == urdf.end()) {
+    reader.fail(
+        "",
+        fmt::format(
+            "belongs to joint \"{}\", which the URDF does not have. Correct the name, or add the joint to "
+            "the robot description",
+            joint));
+  }
+  trajectory::JointLimits limits = found->second;
+  limits.min_position = tightened(reader, "min_position", limits.min_position, false);
+  limits.max_position = tightened(reader, "max_position", limits.max_position, true);
+  limits.max_velocity = tightened(reader, "max_velocity", limits.max_velocity, true);
+  if (!(limits.max_velocity > 0.0) || !std::isfinite(limits.max_velocity)) {
+    reader.fail("max_velocity",
+                fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "
+                            "the URDF or here",
+                            limits.max_velocity));
+  }
+  if (limits.min_position > limits.max_position) {
+    reader.fail("min_position",
+                fmt::format("is {}, above max_position {}", limits.min_position, limits.max_position));
+  }
+  limits.max_acceleration =
+      reader.number("max_acceleration", limits.max_velocity / kDefaultAccelerationTime, 1e-6, 1e9);
+  reader.refuse_unknown();
+  return limits;
+}
+
+encoding::Transmission parse_transmission(ParameterReader& reader) {
+  encoding::Transmission transmission;
+  transmission.counts_per_revolution = reader.required_number("counts_per_revolution", 1.0, 1e8);
+  transmission.ratio = reader.number("gear_ratio", 1.0, 1e-6, 1e6);
+  transmission.direction = static_cast<int>(reader.integer("direction", 1, -1, 1));
+  if (transmission.direction == 0) reader.fail("direction", "is 0; allowed: 1, -1");
+  transmission.offset = reader.number("offset", 0.0, -1e6, 1e6);
+  return transmission;
+}
+
+const DriveKind* parse_kind(ParameterReader& reader, const DriveKinds& kinds) {
+  std::vector<std::pair<std::string, const DriveKind*>> choices;
+  for (const DriveKind* kind : kinds) choices.emplace_back(kind->name(), kind);
+  return reader.choice("type", kinds.front(), choices);
+}
+
+DriveEmulation parse_emulation(ParameterReader& reader, const encoding::Transmission& transmission) {
+  using emulation::kLargestClockError;
+  DriveEmulation emulation;
+  emulation.missing = reader.boolean("missing", emulation.missing);
+  const double position = reader.number("initial_position", 0.0, -1e6, 1e6);
+  emulation.initial_position = static_cast<std::int32_t>(std::lround(transmission.counts(position)));
+  emulation.clock_error_ppm = reader.number("clock_error_ppm", 0.0, -kLargestClockError, kLargestClockError);
+  return emulation;
+}
+
+/// What only drives of this kind have.
+void parse_settings(ParameterReader& reader, DriveConfiguration& drive) {
+  ParameterReader emulation = reader.map("emulation");
+  drive.emulation = parse_emulation(emulation, drive.transmission);
+  drive.settings = drive.kind->parse(reader, emulation, drive);
+  emulation.refuse_unknown();
+}
+
+}  // namespace
+
+DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader, const UrdfLimits& urdf,
+                               const DriveKinds& kinds) {
+  DriveConfiguration drive;
+  drive.joint = joint;
+  drive.bus = reader.required_text("bus");
+  drive.kind = parse_kind(reader, kinds);
+  drive.transmission = parse_transmission(reader);
+  drive.limits = parse_limits(joint, reader.map("limits"), urdf);
+  drive.deviation_bound =
+      reader.number("deviation_bound", drive.kind->default_deviation_bound(), 0.6, 1000.0);
+  drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
+  drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
+  const DriveNumbers& numbers = drive_numbers(drive.kind->bus_type());
+  drive.number = static_cast<int>(reader.required_integer(numbers.key, 1, numbers.highest));
+  parse_settings(reader, drive);
+  reader.refuse_unknown();
+  return drive;
+}
+
+}  // namespace interpolated_motion::hardware
