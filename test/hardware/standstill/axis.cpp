@@ -1,0 +1,105 @@
+#include "hardware/standstill/axis.h"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace interpolated_motion::test {
+namespace {
+
+using axis::AxisState;
+
+constexpr HostDuration kPollInterval = std::chrono::milliseconds(10);
+constexpr HostDuration kPatience = std::chrono::milliseconds(500);  // without a position
+constexpr double kLooksAtAPiece = 8.0;
+
+std::int32_t position_in(const canopen::Frame& frame) {
+  std::uint32_t bits = 0;
+  for (unsigned i = 0; i < 4; ++i) bits |= static_cast<std::uint32_t>(frame.data[i]) << (8 * i);
+  return static_cast<std::int32_t>(bits);
+}
+
+}  // namespace
+
+StandstillAxis::StandstillAxis(axis::AxisParameters parameters, canopen::Master& master,
+                               canopen::NodeLink& node)
+    : parameters_(std::move(parameters)), master_(master), node_(node) {
+  node.set_tpdo_handler([this](int, const canopen::Frame& frame, HostTime time) {
+    feedback_ = {time, parameters_.transmission.joint_position(position_in(frame)), 0.0};
+  });
+}
+
+void StandstillAxis::bring_up(HostTime now) {
+  state_ = AxisState::Configuring;
+  fault_text_.clear();
+  since_ = polled_ = now;
+  node_.send_nmt(canopen::NmtCommand::Start);
+}
+
+void StandstillAxis::poll(HostTime now) {
+  polled_ = now;
+  const bool heard = feedback_.time > since_;
+  if (state_ == AxisState::Offline) return;
+  if (state_ == AxisState::Configuring) {
+    if (heard) state_ = AxisState::Disabled;
+    if (!heard && now - since_ > parameters_.bring_up_timeout) lose("no position has come from the drive");
+    return;
+  }
+  if (now - feedback_.time > kPatience) return lose("no position comes from the drive any more");
+  if (state_ != AxisState::Moving || playback(now) < path_.end_time()) return;
+  finished_ = true;
+  state_ = AxisState::Ready;
+}
+
+HostTime StandstillAxis::next_deadline() const { return polled_ + kPollInterval; }
+
+void StandstillAxis::lose(const std::string& reason) {
+  state_ = AxisState::Offline;
+  fault_text_ = fmt::format("{}: {}.", who(), reason);
+}
+
+std::optional<Refusal> StandstillAxis::plan(const trajectory::Path& path, GoalTime /*wait*/) {
+  const double here = parameters_.transmission.counts(feedback_.position);
+  for (const trajectory::Piece& piece : path.pieces()) {
+    for (double look = 0.0; look <= kLooksAtAPiece; ++look) {
+      const GoalTime time = piece.start + look / kLooksAtAPiece * piece.duration();
+      const double there = parameters_.transmission.counts(path.sample(time).position);
+      if (std::abs(there - here) <= 1.0) continue;
+      return Refusal{
+          GoalError::InvalidGoal,
+          fmt::format("{} stands still at {:.4f} rad; the goal leads away.", who(), feedback_.position)};
+    }
+  }
+  planned_ = path;
+  finished_ = false;
+  return std::nullopt;
+}
+
+std::optional<Refusal> StandstillAxis::plan_stream(HostTime /*origin*/, GoalTime /*rest*/) {
+  planned_ = trajectory::Path(feedback_.position);
+  return std::nullopt;
+}
+
+void StandstillAxis::arm(HostTime begin, HostTime /*now*/) {
+  path_ = planned_;
+  begin_ = begin;
+  state_ = AxisState::Moving;
+}
+
+GoalTime StandstillAxis::playback(HostTime when) const {
+  return begin_ == kNever ? path_.start_time() - start_lead() : goal_time_at(seconds(when - begin_));
+}
+
+GoalTime StandstillAxis::goal_time_at(double drive_seconds) const {
+  return path_.start_time() + GoalTime{drive_seconds};
+}
+
+void StandstillAxis::status(HostTime /*now*/, axis::AxisStatus& out) const {
+  out = {};
+  out.online = state_ != AxisState::Offline;
+  out.state = axis::to_string(state_);
+  out.demand_position = feedback_.position;
+}
+
+}  // namespace interpolated_motion::test
