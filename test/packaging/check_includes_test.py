@@ -22,8 +22,8 @@ check_includes = load()
 ARROWS = check_includes.read_arrows((ROOT / "cmake" / "stages.cmake").read_text())
 
 
-def faults(stage, text):
-    return check_includes.check_text(stage, text, ARROWS)
+def faults(stage, text, file=""):
+    return check_includes.check_text(stage, text, ARROWS, file)
 
 
 def ours(header):
@@ -53,6 +53,60 @@ def test_an_arrow_that_runs_back_is_found(stage, header):
     assert len(faults(stage, ours(header))) == 1
 
 
+@pytest.mark.parametrize("file, header", [
+    ("axis/epos/epos_axis.h", "axis/cyclic/telemetry.h"),
+    ("axis/silverlode/status.cpp", "axis/epos/record_feed.h"),
+    ("emulation/cyclic/fine_interpolation.h", "emulation/epos/spline_segment.h"),
+    ("emulation/silverdust/axis.h", "emulation/epos/pvt_buffer.h"),
+    ("hardware/epos/drive_kind.cpp", "axis/silverlode/silverlode_axis.h"),
+    ("hardware/epos/drive_kind.cpp", "emulation/cyclic/cyclic_drive.h"),
+    ("axis/cyclic/cyclic_axis.cpp", "encoding/pvt/pvt_encoder.h"),
+])
+def test_a_kind_of_drive_knows_no_other(file, header):
+    (line, reason), = faults(file.split("/")[0], ours(header), file)
+    assert "knows no other" in reason
+
+
+@pytest.mark.parametrize("file, header", [
+    ("axis/axis.cpp", "axis/epos/epos_axis.h"),
+    ("axis/cia402/cia402_axis.h", "axis/epos/epos_parameters.h"),
+    ("encoding/transmission.h", "encoding/ims/ims_encoder.h"),
+    ("emulation/world.h", "emulation/silverdust/silverdust.h"),
+    ("emulation/canopen/canopen_node.cpp", "emulation/epos/epos_objects.h"),
+    ("hardware/assembly.cpp", "hardware/epos/drive_kind.h"),
+    ("hardware/assembly.cpp", "axis/cyclic/cyclic_axis.h"),
+    ("hardware/drive_kinds.h", "hardware/epos/drive_kind.h"),
+    ("motion/group.cpp", "axis/epos/epos_axis.h"),
+    ("node/main.cpp", "emulation/epos/epos_drive.h"),
+    ("emulated_drives/server.cpp", "hardware/cyclic/drive_kind.h"),
+    ("hardware/assembly.cpp", "hardware/standstill/drive_kind.h"),
+])
+def test_what_is_for_all_kinds_of_drives_knows_none(file, header):
+    (line, reason), = faults(file.split("/")[0], ours(header), file)
+    assert "knows none" in reason
+
+
+def test_a_kind_is_found_behind_a_relative_path_too():
+    assert len(faults("emulation", '#include "epos/epos_drive_implementation.h"\n', "emulation/world.cpp")) == 1
+    assert faults("emulation", '#include "epos_drive_implementation.h"\n', "emulation/epos/epos_drive.cpp") == []
+
+
+@pytest.mark.parametrize("file, header", [
+    ("hardware/drive_kinds.cpp", "hardware/epos/drive_kind.h"),
+    ("hardware/silverlode/drive_kind.cpp", "emulation/silverdust/silverdust.h"),
+    ("hardware/silverlode/drive_kind.cpp", "axis/silverlode/silverlode_axis.h"),
+    ("axis/epos/epos_axis.cpp", "encoding/pvt/pvt_encoder.h"),
+    ("axis/silverlode/segment_feed.h", "encoding/ims/ims_encoder.h"),
+    ("axis/epos/epos_axis.h", "axis/cia402/cia402_axis.h"),
+    ("emulation/cyclic/cyclic_drive.h", "emulation/canopen/canopen_drive.h"),
+    ("hardware/drive_parameters.h", "axis/cia402/cia402_parameters.h"),
+    ("hardware/serial_link.h", "protocol/silverlode/line_master.h"),
+    ("axis/epos/epos_axis.cpp", "axis/playback_clock.h"),
+])
+def test_a_kind_is_known_to_itself_and_to_the_list(file, header):
+    assert faults(file.split("/")[0], ours(header), file) == []
+
+
 @pytest.mark.parametrize("stage, header", [
     ("interpolation", "units/time.h"),
     ("encoding", "trajectory/path.h"),
@@ -64,7 +118,7 @@ def test_an_arrow_that_runs_back_is_found(stage, header):
     ("hardware", "emulation/drive.h"),
     ("node", "hardware/configuration.h"),
     ("node", "DriveState.h"),
-    ("emulated_drives", "hardware/fault_injection.h"),
+    ("emulated_drives", "hardware/drive_kind.h"),
     ("emulated_drives", "command_line/option_set.h"),
     ("tools", "command_line/option_set.h"),
     ("node", "command_line/option_set.h"),

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "interpolated_motion_driver/emulation/epos/spline_segment.h"
+#include "interpolated_motion_driver/emulation/motion_state.h"
 
 namespace interpolated_motion::emulation {
 

@@ -1,13 +1,8 @@
 #pragma once
 
-namespace interpolated_motion::emulation {
+#include "interpolated_motion_driver/emulation/motion_state.h"
 
-/// Position (qc), velocity (qc/ms) and acceleration (qc/ms^2) of a demand.
-struct MotionState {
-  double position = 0.0;
-  double velocity = 0.0;
-  double acceleration = 0.0;
-};
+namespace interpolated_motion::emulation {
 
 /// One cubic of "EPOS3 Interpolated Position Mode", 4.2.3: P(t) = a s^3 + b s^2 + c s + d with s = t - t0, t0
 /// the END of the segment, so that s runs from -T to 0. The coefficients a and b printed there miss the

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace interpolated_motion::emulation {
+
+/// Position (counts), velocity (counts/ms) and acceleration (counts/ms^2) of a demand.
+struct MotionState {
+  double position = 0.0;
+  double velocity = 0.0;
+  double acceleration = 0.0;
+};
+
+}  // namespace interpolated_motion::emulation
