@@ -205,8 +205,8 @@ void Group::stop(HostTime now, Ending ending) {
 }
 
 void Group::abort_with_fault_of(const axis::Axis& axis, HostTime now) {
-  stop(now, {GoalOutcome::Aborted,
-             {GoalError::InvalidGoal, bus_faults() + axis.fault_text() + " The other joints were stopped."}});
+  const char* others = axes_.size() > 1 ? " The other joints were stopped." : "";
+  stop(now, {GoalOutcome::Aborted, {GoalError::InvalidGoal, bus_faults() + axis.fault_text() + others}});
 }
 
 RequestId Group::request(RequestKind kind, HostTime now) {

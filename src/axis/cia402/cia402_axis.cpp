@@ -9,157 +9,77 @@
 
 namespace interpolated_motion::axis {
 
-using namespace std::chrono_literals;
 namespace object = cia402::object;
 using canopen::SdoResult;
 
-namespace {
-
-/// How often an axis wants to be polled while it works towards something.
-constexpr HostDuration kPollInterval = 5ms;
-/// The same in motion, where what the drive reports is an event of its own and its FIFO lasts far longer.
-constexpr HostDuration kMotionPollInterval = 10ms;
-/// Polls further apart than this mean that the host was away: stopped, or starved by other programs.
-constexpr HostDuration kHostStall = 100ms;
-
-}  // namespace
-
-Cia402Axis::Cia402Axis(Settings settings, canopen::Master& master, canopen::NodeLink& node)
-    : settings_(std::move(settings)),
+Cia402Axis::Cia402Axis(const Settings& settings, canopen::Master& master, canopen::NodeLink& node)
+    : AxisBase({settings.joint, settings.bring_up_timeout}),
+      settings_(settings),
       master_(master),
       node_(node),
       sequence_(node),
       controlword_(master, node, settings_.controlword_rpdo) {}
 
-AxisState Cia402Axis::state() const {
-  switch (stage_) {
-    case Stage::Offline:
-      return AxisState::Offline;
-    case Stage::Probing:
-    case Stage::Configuring:
-    case Stage::StartingNode:
-    case Stage::Resetting:
-      return AxisState::Configuring;
-    case Stage::Disabled:
-      return AxisState::Disabled;
-    case Stage::SelectingMode:
-    case Stage::Enabling:
-      return AxisState::Enabling;
-    case Stage::Enabled:
-      return enabled_state();
-    case Stage::Disabling:
-      return AxisState::Stopping;
-    case Stage::Fault:
-      break;
-  }
-  return AxisState::Fault;
-}
-
 // ---- polling
 
-void Cia402Axis::poll(HostTime now) {
-  note_stall(now);
+void Cia402Axis::listen(HostTime now) {
   collect_emergencies();
   watch_heartbeat(now);
   watch_power_stage(now);
-  sequence_.poll(now);
-  run_stage(now);
 }
 
-void Cia402Axis::note_stall(HostTime now) {
-  const HostDuration away = now - polled_;
-  if (away > kHostStall) {
-    if (polled_ >= since_) away_ += away;
-    absent_ += away;
-  }
-  polled_ = now;
-}
+void Cia402Axis::go_on(HostDuration, HostTime now) { sequence_.poll(now); }
 
-void Cia402Axis::begin_phase(HostTime now) {
-  since_ = now;
-  away_ = HostDuration::zero();
-}
-
-HostTime Cia402Axis::next_deadline() const {
-  switch (state()) {
-    case AxisState::Offline:
-    case AxisState::Disabled:
-    case AxisState::Ready:
-    case AxisState::Loaded:
-    case AxisState::Fault:
-      return kNever;
-    case AxisState::Moving:
-      return polled_ + kMotionPollInterval;
-    default:
-      return polled_ + kPollInterval;
-  }
-}
-
-void Cia402Axis::run_stage(HostTime now) {
-  switch (stage_) {
-    case Stage::Probing:
-      return poll_probing(now);
+void Cia402Axis::poll_stage(HostTime now) {
+  switch (stage()) {
     case Stage::Configuring:
-      return poll_configuring(now);
-    case Stage::StartingNode:
-      return poll_starting_node(now);
-    case Stage::SelectingMode:
-      return poll_selecting_mode(now);
+      return by_pdo_ ? poll_reports(now) : poll_configuring(now);
     case Stage::Enabling:
-      return poll_enabling(now);
+      return by_pdo_ ? poll_enabling(now) : poll_selecting_mode(now);
     case Stage::Enabled:
       return poll_enabled(now);
     case Stage::Disabling:
       return poll_disabling(now);
     case Stage::Resetting:
       return poll_resetting(now);
-    case Stage::Offline:
-    case Stage::Disabled:
-    case Stage::Fault:
+    default:
       return;
   }
 }
 
 // ---- bring-up
 
-void Cia402Axis::bring_up(HostTime now) {
-  configured_ = false;
-  fault_text_.clear();
-  bring_up_since_ = now;
-  enter(Stage::Probing, now);
-  probe(now);
-}
-
 void Cia402Axis::probe(HostTime now) {
   node_.send_nmt(canopen::NmtCommand::EnterPreOperational);
   sequence_.start({SdoSequence::read(object::kDeviceType)}, now);
 }
 
-// A drive that is still booting does not answer: asked again until the time for bring-up is over.
-void Cia402Axis::poll_probing(HostTime now) {
-  if (sequence_.running()) return;
-  if (sequence_.state() == SdoSequence::State::Done) {
-    enter(Stage::Configuring, now);
-    return sequence_.start(bring_up_steps(), now);
-  }
-  if (now - bring_up_since_ <= settings_.bring_up_timeout) return probe(now);
-  go_offline(
-      fmt::format("no drive answers within {:.1f} s. Check its power, the cable and its termination, the "
-                  "node id (node_id in the configuration, switches on the drive) and the bit rate",
-                  seconds(settings_.bring_up_timeout)),
-      now);
+std::optional<bool> Cia402Axis::probe_answer() const {
+  if (sequence_.running()) return std::nullopt;
+  return sequence_.state() == SdoSequence::State::Done;
+}
+
+std::string Cia402Axis::no_answer_text() const {
+  return ". Check its power, the cable and its termination, the node id (node_id in the configuration, "
+         "switches on the drive) and the bit rate";
+}
+
+void Cia402Axis::configure(HostTime now) {
+  by_pdo_ = false;
+  sequence_.start(bring_up_steps(), now);
 }
 
 void Cia402Axis::poll_configuring(HostTime now) {
   if (!sequence_done(now)) return;
-  enter(Stage::StartingNode, now);
+  by_pdo_ = true;
+  begin_phase(now);
   node_.send_nmt(canopen::NmtCommand::Start);
 }
 
 // The first statusword shows that PDOs flow. A drive may come up enabled or in fault from an earlier life of
 // the host.
-void Cia402Axis::poll_starting_node(HostTime now) {
-  if (!has_reported(since_)) {
+void Cia402Axis::poll_reports(HostTime now) {
+  if (!has_reported(since())) {
     if (expired(now, kStateTimeout)) fail("no PDO arrives from the drive after NMT start", now);
     return;
   }
@@ -172,8 +92,9 @@ void Cia402Axis::poll_starting_node(HostTime now) {
 // ---- power stage
 
 void Cia402Axis::enable(HostTime now) {
-  if (stage_ != Stage::Disabled) return;
-  enter(Stage::SelectingMode, now);
+  if (stage() != Stage::Disabled) return;
+  enter(Stage::Enabling, now);
+  by_pdo_ = false;
   const auto mode = static_cast<std::int8_t>(settings_.mode);
   sequence_.start(
       {SdoSequence::write(canopen::sdo_write<std::int8_t>(object::kModeOfOperation, mode)), read_mode()},
@@ -193,7 +114,8 @@ void Cia402Axis::poll_selecting_mode(HostTime now) {
   if (!sequence_done(now)) return;
   if (drive().mode == static_cast<std::int8_t>(settings_.mode)) {
     on_mode_selected();
-    enter(Stage::Enabling, now);
+    by_pdo_ = true;
+    begin_phase(now);
   } else if (expired(now, kStateTimeout)) {
     fail(fmt::format("mode {} was selected but the drive shows mode {} (0x6061)",
                      static_cast<int>(settings_.mode), drive().mode),
@@ -219,14 +141,14 @@ void Cia402Axis::poll_disabling(HostTime now) {
 }
 
 void Cia402Axis::reset_fault(HostTime now) {
-  if (stage_ != Stage::Fault && stage_ != Stage::Offline) return;
-  fault_text_.clear();
-  if (!configured_) return bring_up(now);
+  if (stage() == Stage::Offline || (stage() == Stage::Fault && !configured_)) return bring_up(now);
+  if (stage() != Stage::Fault) return;
+  forget_fault();
   enter(Stage::Resetting, now);
 }
 
 void Cia402Axis::poll_resetting(HostTime now) {
-  if (controlword_.reset(drive().statusword.state(), drive().status_time, since_, now)) {
+  if (controlword_.reset(drive().statusword.state(), drive().status_time, since(), now)) {
     error_code_ = 0;
     error_text_.clear();
     return enter(Stage::Disabled, now);
@@ -238,7 +160,7 @@ void Cia402Axis::poll_resetting(HostTime now) {
 bool Cia402Axis::walk_to(cia402::State target, HostTime now) {
   using Progress = ControlwordLink::Progress;
   const cia402::Statusword statusword = drive().statusword;
-  const Progress progress = controlword_.walk(statusword.state(), target, since_, now);
+  const Progress progress = controlword_.walk(statusword.state(), target, since(), now);
   if (progress == Progress::Arrived) return true;
   if (progress == Progress::NeedsFaultReset) {
     fail(drive_fault(), now);
@@ -265,17 +187,18 @@ void Cia402Axis::collect_emergencies() {
   }
 }
 
+// A drive that has restarted has no power stage that is on, so it does not move, whatever it was doing.
 void Cia402Axis::watch_heartbeat(HostTime now) {
   while (auto event = node_.heartbeat().take_event()) {
-    if (stage_ == Stage::Offline || stage_ == Stage::Probing) continue;
-    if (*event == canopen::HeartbeatEvent::Lost) {
-      return go_offline(
-          fmt::format("no heartbeat from the drive for {:.2f} s: it is off, disconnected or stuck",
-                      seconds(settings_.heartbeat_timeout)),
-          now);
+    silent_ = *event == canopen::HeartbeatEvent::Lost;
+    if (stage() == Stage::Offline || stage() == Stage::Probing) continue;
+    if (silent_) {
+      return lose(fmt::format("no heartbeat from the drive for {:.2f} s: it is off, disconnected or stuck",
+                              seconds(settings_.heartbeat_timeout)),
+                  now);
     }
     if (*event != canopen::HeartbeatEvent::BootUp) continue;
-    if (stage_ == Stage::Configuring) return bring_up(now);
+    if (stage() == Stage::Configuring && !by_pdo_) return bring_up(now);
     return go_offline(
         "the drive has restarted (boot-up message): it lost its power or was reset, and with it " +
             lost_by_restart(),
@@ -287,7 +210,7 @@ void Cia402Axis::watch_power_stage(HostTime now) {
   const cia402::Statusword statusword = drive().statusword;
   const cia402::State state = statusword.state();
   const bool faulted = state == cia402::State::Fault || state == cia402::State::FaultReactionActive;
-  if (stage_ == Stage::Disabled && faulted) return fail(drive_fault(), now);
+  if (stage() == Stage::Disabled && faulted) return fail(drive_fault(), now);
   if (!enabled() || state == cia402::State::OperationEnabled) return;
   fail(faulted ? drive_fault()
                : fmt::format("the drive left operation enabled by itself; statusword: {}", statusword.text()),
@@ -300,30 +223,37 @@ std::string Cia402Axis::drive_fault() const {
   return text + fault_detail();
 }
 
-// ---- results
+// ---- a fault in motion
 
-void Cia402Axis::enter(Stage stage, HostTime now) {
-  stage_ = stage;
-  begin_phase(now);
+void Cia402Axis::give_up(HostTime) { sequence_.cancel(); }
+
+bool Cia402Axis::may_move() const {
+  const cia402::State state = drive().statusword.state();
+  return is_motion_phase() &&
+         (obeys() || state == cia402::State::QuickStopActive || state == cia402::State::FaultReactionActive);
 }
 
-std::string Cia402Axis::who() const { return fmt::format("Joint {} ({})", settings_.joint, node_.name()); }
-
-void Cia402Axis::fail(const std::string& reason, HostTime now) {
-  fault_text_ = fmt::format("{}: {}.", who(), reason);
-  sequence_.cancel();
-  give_up(now);
-  enter(Stage::Fault, now);
+/// A drive whose power stage is off cannot move any more. In a quick stop, "target reached" means standstill.
+bool Cia402Axis::stands() const {
+  if (drive().status_time <= since()) return false;
+  switch (drive().statusword.state()) {
+    case cia402::State::OperationEnabled:
+      return halted();
+    case cia402::State::QuickStopActive:
+      return drive().statusword.target_reached();
+    case cia402::State::FaultReactionActive:
+      return false;
+    default:
+      return true;
+  }
 }
 
-void Cia402Axis::go_offline(const std::string& reason, HostTime now) {
-  fail(reason, now);
-  configured_ = false;
-  enter(Stage::Offline, now);
+std::string Cia402Axis::unseen_text() const {
+  return silent_ ? "it does not answer" : "statusword: " + drive().statusword.text();
 }
 
 void Cia402Axis::fill_status(AxisStatus& out) const {
-  out.online = stage_ != Stage::Offline && stage_ != Stage::Probing;
+  out.online = stage() != Stage::Offline && stage() != Stage::Probing;
   out.state = std::string(cia402::to_text(drive().statusword.state()));
   out.statusword = drive().statusword.raw;
   out.mode = drive().mode;

@@ -17,6 +17,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
+/// Longest that drives are known to ride out missing target positions, periods.
+constexpr int kRideThrough = 10;
+
 void require(bool valid, const CyclicAxisParameters& parameters, const char* name, double value,
              const char* range) {
   if (valid) return;
@@ -86,7 +89,7 @@ void CyclicAxis::poll_enabled(HostTime now) {
     case Phase::Following:
       return poll_following(now);
     case Phase::Loading:
-      return enter(Phase::Loaded, now);
+      return enter_phase(Phase::Loaded, now);
     case Phase::Moving:
       return poll_moving(now);
     case Phase::Braking:
@@ -98,7 +101,7 @@ void CyclicAxis::poll_enabled(HostTime now) {
   }
 }
 
-void CyclicAxis::enter(Phase phase, HostTime now) {
+void CyclicAxis::enter_phase(Phase phase, HostTime now) {
   phase_ = phase;
   begin_phase(now);
 }
@@ -123,12 +126,12 @@ void CyclicAxis::on_enabling() {
 }
 
 void CyclicAxis::on_enabled(HostTime now) {
-  enter(Phase::Following, now);
+  enter_phase(Phase::Following, now);
   poll_following(now);
 }
 
 void CyclicAxis::poll_following(HostTime now) {
-  if (telemetry_.statusword.follows_command()) return enter(Phase::Ready, now);
+  if (telemetry_.statusword.follows_command()) return enter_phase(Phase::Ready, now);
   if (expired(now, kStateTimeout)) {
     fail(fmt::format("the drive is enabled but does not follow its target position (bit 12); statusword: {}",
                      telemetry_.statusword.text()),
@@ -164,8 +167,20 @@ std::string CyclicAxis::description() const {
 
 /// A drive that is still enabled is told to brake by its quick stop.
 void CyclicAxis::give_up(HostTime now) {
-  const bool obeys = telemetry_.statusword.state() == cia402::State::OperationEnabled;
-  if (obeys) controlword().send(cia402::controlword::kQuickStop, now);
+  Cia402Axis::give_up(now);
+  press_stop(now);
+}
+
+void CyclicAxis::press_stop(HostTime now) {
+  using cia402::controlword::kQuickStop;
+  if (!obeys() || (controlword().word() == kQuickStop && !controlword().overdue(now))) return;
+  controlword().send(kQuickStop, now);
+}
+
+/// Without target positions the drive goes on along its polynomial for a few periods, then brakes.
+HostDuration CyclicAxis::longest_motion(HostTime) const {
+  const double ramp = parameters_.limits.max_velocity / parameters_.limits.max_acceleration;
+  return kRideThrough * parameters_.sync_period + host_duration(ramp);
 }
 
 double CyclicAxis::rest_position() const {

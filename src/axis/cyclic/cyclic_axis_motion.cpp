@@ -50,7 +50,7 @@ void CyclicAxis::load(HostTime now) {
   finished_ = false;
   sent_at_load_ = sent_;
   missed_at_load_ = setpoints_.missed();
-  enter(Phase::Loading, now);
+  enter_phase(Phase::Loading, now);
 }
 
 // What has been sent for instants after the begin was rest, and cannot be taken back.
@@ -65,7 +65,7 @@ void CyclicAxis::arm(HostTime begin, HostTime now) {
   begin_ = begin;
   if (stream_origin_) path_ = trajectory::shifted(path_, GoalTime{seconds(begin - *stream_origin_)});
   setpoints_.follow(path_, begin);
-  enter(Phase::Moving, now);
+  enter_phase(Phase::Moving, now);
 }
 
 // ---- a path that is still being made
@@ -104,10 +104,7 @@ GoalTime CyclicAxis::playback(HostTime when) const {
   return goal_time_at(seconds(when - path_begin()));
 }
 
-bool CyclicAxis::wants_targets() const {
-  const bool obeys = telemetry_.statusword.state() == cia402::State::OperationEnabled;
-  return enabling() || enabled() || (disabling() && obeys);
-}
+bool CyclicAxis::wants_targets() const { return enabling() || enabled() || (disabling() && obeys()); }
 
 /// One target position for each SYNC, right behind the SYNC before it.
 void CyclicAxis::send_target() {
@@ -139,10 +136,10 @@ void CyclicAxis::stop(HostTime now) {
   switch (phase()) {
     case Phase::Loading:
     case Phase::Loaded:
-      return enter(Phase::Ready, now);
+      return enter_phase(Phase::Ready, now);
     case Phase::Moving:
       setpoints_.brake(parameters_.limits);
-      return enter(Phase::Braking, now);
+      return enter_phase(Phase::Braking, now);
     default:
       return;
   }
@@ -155,7 +152,7 @@ void CyclicAxis::poll_braking(HostTime now) {
 void CyclicAxis::come_to_rest(HostTime now) {
   rest_counts_ = setpoints_.newest_counts();
   setpoints_.rest(rest_counts_);
-  enter(Phase::Ready, now);
+  enter_phase(Phase::Ready, now);
 }
 
 }  // namespace interpolated_motion::axis

@@ -91,7 +91,7 @@ void EposAxis::poll_enabled(HostTime now) {
   }
 }
 
-void EposAxis::enter(Phase phase, HostTime now) {
+void EposAxis::enter_phase(Phase phase, HostTime now) {
   phase_ = phase;
   begin_phase(now);
 }
@@ -111,7 +111,7 @@ bool EposAxis::has_reported(HostTime since) const {
 void EposAxis::on_enabled(HostTime now) { read_rest({}, Phase::ReadingRest, now); }
 
 void EposAxis::poll_reading_rest(HostTime now) {
-  if (sequence_done(now)) enter(Phase::Ready, now);
+  if (sequence_done(now)) enter_phase(Phase::Ready, now);
 }
 
 /// Does `before`, then reads where the demand rests, in `phase`.
@@ -122,7 +122,7 @@ void EposAxis::read_rest(std::vector<SdoSequence::Step> before, Phase phase, Hos
         rest_counts_ = r.as_i32();
         return std::nullopt;
       }));
-  enter(phase, now);
+  enter_phase(phase, now);
   sequence().start(std::move(before), now);
 }
 
@@ -171,7 +171,10 @@ std::string EposAxis::clock_text() const {
   return "clock on its own, it takes no time stamps: " + facts_.time_stamp_refusal;
 }
 
-void EposAxis::give_up(HostTime) { node().clear_records(); }
+void EposAxis::give_up(HostTime now) {
+  Cia402Axis::give_up(now);
+  node().clear_records();
+}
 
 double EposAxis::rest_position() const {
   return parameters_.transmission.joint_position(enabled() ? rest_counts_ : telemetry_.position);
@@ -185,9 +188,8 @@ void EposAxis::status(HostTime now, AxisStatus& out) const {
   out.demand_position = transmission.joint_position(telemetry_.position_demand);
   out.following_error = telemetry_.following_error / transmission.counts_per_radian();
   out.capacity = facts_.capacity;
-  out.fill =
-      loading || is_motion_phase() ? static_cast<std::uint32_t>(feed_.sent() - feed_.played(elapsed)) : 0;
-  out.fill_time = loading || is_motion_phase() ? feed_.time_ahead(elapsed) : 0.0;
+  out.fill = loading || is_playing() ? static_cast<std::uint32_t>(feed_.sent() - feed_.played(elapsed)) : 0;
+  out.fill_time = loading || is_playing() ? feed_.time_ahead(elapsed) : 0.0;
   out.underflow_warning = telemetry_.buffer_status.underflow_warning();
   out.overflow_warning = telemetry_.buffer_status.overflow_warning();
   out.velocity_warning = telemetry_.buffer_status.velocity_warning();

@@ -104,7 +104,7 @@ void EposAxis::poll_clearing(HostTime now) {
         now);
   }
   records_due_ = node().rpdos_confirmed(epos_pdo::kRecordRpdo);
-  enter(Phase::Filling, now);
+  enter_phase(Phase::Filling, now);
   feed(now);
 }
 
@@ -112,7 +112,7 @@ void EposAxis::poll_filling(HostTime now) {
   if (expired(now, kFillTimeout))
     return fail("its records do not get onto the bus: is the bus overloaded or down?", now);
   if (node().rpdos_confirmed(epos_pdo::kRecordRpdo) < records_due_) return;
-  enter(Phase::Verifying, now);
+  enter_phase(Phase::Verifying, now);
   sequence().start({SdoSequence::read(object::kUsedRecords,
                                       [this](const SdoResult& r) -> std::optional<std::string> {
                                         if (!r.ok) return r.text();
@@ -127,7 +127,7 @@ void EposAxis::poll_verifying(HostTime now) {
   if (!sequence_done(now)) return;
   if (held_records_ == feed_.sent()) {
     minimum_fill_ = held_records_;
-    return enter(Phase::Loaded, now);
+    return enter_phase(Phase::Loaded, now);
   }
   if (held_records_ < feed_.sent())
     refused_writes_ += static_cast<std::uint32_t>(feed_.sent()) - held_records_;
@@ -153,7 +153,7 @@ void EposAxis::feed(HostTime now) {
 
 void EposAxis::arm(HostTime, HostTime now) {
   if (phase() != Phase::Loaded) return;
-  enter(Phase::Armed, now);
+  enter_phase(Phase::Armed, now);
   reports_taken_ = telemetry_.buffer_reports;
   fill_mismatches_ = 0;
   controlword().send(cw::kStartInterpolation, now);
@@ -172,17 +172,17 @@ void EposAxis::poll_armed(HostTime now) {
   start_clock();
   if (!clock_.running()) {
     if (expired(now, patience(kStartTimeout, parameters_)))
-      fail_in_motion("its start command does not get onto the bus", now);
+      fail("its start command does not get onto the bus", now);
     return;
   }
   feed(now);
-  if (telemetry_.statusword.ip_mode_active()) return enter(Phase::Moving, now);
+  if (telemetry_.statusword.ip_mode_active()) return enter_phase(Phase::Moving, now);
   if (feed_.all_sent() && clock_.least_elapsed(telemetry_.status_time) > feed_.duration())
     return end_of_motion(now);
   if (expired(now, patience(kStartTimeout, parameters_))) {
-    fail_in_motion(fmt::format("the drive does not start to interpolate; statusword: {}, FIFO: {}",
-                               telemetry_.statusword.text(), telemetry_.buffer_status.text()),
-                   now);
+    fail(fmt::format("the drive does not start to interpolate; statusword: {}, FIFO: {}",
+                     telemetry_.statusword.text(), telemetry_.buffer_status.text()),
+         now);
   }
 }
 
@@ -196,13 +196,12 @@ void EposAxis::poll_moving(HostTime now) {
 void EposAxis::watch_motion(HostTime now) {
   if (!telemetry_.statusword.ip_mode_active()) return end_of_motion(now);
   if (silence(now, feedback_.time) > parameters_.feedback_timeout) {
-    return fail_in_motion(
+    return fail(
         fmt::format("no position has come from the drive for {:.2f} s", seconds(now - feedback_.time)), now);
   }
   const double overtime = seconds(patience(kOvertime, parameters_));
-  if (clock_.least_elapsed(now) > feed_.duration() + overtime) {
-    fail_in_motion(
-        fmt::format("the drive still interpolates {:.1f} s after the end of its records", overtime), now);
+  if (clock_.least_elapsed(telemetry_.status_time) > feed_.duration() + overtime) {
+    fail(fmt::format("the drive still interpolates {:.1f} s after the end of its records", overtime), now);
   }
 }
 
@@ -210,14 +209,14 @@ void EposAxis::end_of_motion(HostTime now) {
   const auto too_early = [this] { return clock_.most_elapsed(telemetry_.status_time) < feed_.duration(); };
   if (clock_.follows_host() && too_early()) clock_.stop_following();
   if (!feed_.all_sent() || too_early()) {
-    return fail_in_motion(
+    return fail(
         fmt::format("the drive left the interpolation {:.3f} s after the start instead of {:.3f} s; FIFO: {}",
                     clock_.elapsed(telemetry_.status_time), feed_.duration(),
                     telemetry_.buffer_status.text()),
         now);
   }
   rest_counts_ = feed_.final_position();
-  enter(Phase::Ending, now);
+  enter_phase(Phase::Ending, now);
   controlword().send(cw::kEnableOperation, now);
 }
 
@@ -228,7 +227,7 @@ void EposAxis::poll_ending(HostTime now) {
     return;
   }
   finished_ = true;
-  enter(Phase::Ready, now);
+  enter_phase(Phase::Ready, now);
 }
 
 // ---- is everything that was sent in the FIFO?
@@ -277,9 +276,9 @@ void EposAxis::compare_fill(std::size_t used, HostTime when, HostTime now) {
   }
   if (++fill_mismatches_ < kFillMismatches) return;
   ++refused_writes_;
-  fail_in_motion(fmt::format("its FIFO holds {} records where {}..{} must be: a record was lost on the bus",
-                             used, expected.least, expected.most),
-                 now);
+  fail(fmt::format("its FIFO holds {} records where {}..{} must be: a record was lost on the bus", used,
+                   expected.least, expected.most),
+       now);
 }
 
 EposAxis::FillRange EposAxis::expected_fill(HostTime when) const {
@@ -314,7 +313,7 @@ void EposAxis::stop(HostTime now) {
   switch (phase()) {
     case Phase::Armed:
     case Phase::Moving:
-      enter(Phase::Braking, now);
+      enter_phase(Phase::Braking, now);
       return controlword().send(cw::kStartInterpolation | cw::kHaltBit, now);
     case Phase::Ending:
       return;
@@ -330,17 +329,21 @@ void EposAxis::stop(HostTime now) {
 
 // With halt set, "target reached" means standstill. It counts when the drive has sent it after it took the
 // halt.
-void EposAxis::poll_braking(HostTime now) {
+bool EposAxis::halted() const {
   const bool fresh = controlword().applied() && telemetry_.status_time > master().last_sync_time() &&
                      telemetry_.motion_time > node().last_rpdo_time(epos_pdo::kControlwordRpdo) + kLatchTime;
-  if (fresh && telemetry_.statusword.target_reached()) {
+  return fresh && telemetry_.statusword.target_reached();
+}
+
+void EposAxis::poll_braking(HostTime now) {
+  if (halted()) {
     controlword().send(cw::kHalt, now);
     return start_emptying(now);
   }
   if (!controlword().applied() && controlword().overdue(now)) controlword().send(controlword().word(), now);
   const double longest = parameters_.limits.max_velocity / parameters_.limits.max_acceleration;
   if (expired(now, host_duration(2.0 * longest) + patience(kOvertime, parameters_))) {
-    fail_in_motion("the drive was told to halt but does not come to rest", now);
+    fail("the drive was told to halt but does not come to rest", now);
   }
 }
 
@@ -353,14 +356,34 @@ void EposAxis::start_emptying(HostTime now) {
 void EposAxis::poll_emptying(HostTime now) {
   if (!sequence_done(now) || !controlword().applied()) return;
   if (controlword().word() != cw::kEnableOperation) return controlword().send(cw::kEnableOperation, now);
-  enter(Phase::Ready, now);
+  enter_phase(Phase::Ready, now);
 }
 
-/// The host has found a fault while the drive may be moving: it is told to halt, and stays halted until the
-/// reset.
-void EposAxis::fail_in_motion(const std::string& reason, HostTime now) {
-  fail(reason, now);
-  controlword().send(cw::kStartInterpolation | cw::kHaltBit, now);
+// ---- a fault in motion
+// ------------------------------------------------------------------------------------------------------
+
+bool EposAxis::is_motion_phase() const { return is_playing() || phase() == Phase::Braking; }
+
+/// The drive goes on through its FIFO, or until it misses the host's heartbeat if it hears nothing any more,
+/// and then down its quick-stop ramp. Its last report shows that it could still be heard, and so hear, until
+/// the SYNC after that.
+HostDuration EposAxis::longest_motion(HostTime now) const {
+  const double queued = feed_.time_ahead(clock_.least_elapsed(now)) * (1.0 + PlaybackClock::kMaxError);
+  const HostTime misses_host =
+      feedback_.time + master().parameters().sync_period + parameters_.heartbeat_timeout;
+  const bool watches_host = parameters_.abort_connection_option != 0;
+  const double alone = watches_host ? std::max(0.0, seconds(misses_host - now)) : queued;
+  const double fastest = feed_.fastest_ahead(clock_.least_elapsed(now), counts_per_second(1));
+  const double deceleration =
+      parameters_.limits.max_acceleration * std::abs(parameters_.transmission.counts_per_radian());
+  return host_duration(std::min(queued, alone) + fastest / deceleration);
+}
+
+/// It stays halted until the reset.
+void EposAxis::press_stop(HostTime now) {
+  constexpr std::uint16_t kStop = cw::kStartInterpolation | cw::kHaltBit;
+  if (!obeys() || (controlword().word() == kStop && !controlword().overdue(now))) return;
+  controlword().send(kStop, now);
   master().request_sync(now);
 }
 

@@ -70,6 +70,22 @@ double RecordFeed::time_ahead(double elapsed) const {
   return sent_ == 0 ? 0.0 : std::max(0.0, end(sent_ - 1) - elapsed);
 }
 
+// On its way from one record to the next the velocity is a quadratic, and never beyond its Bernstein
+// coefficients: both ends, and thrice the mean less the ends.
+double RecordFeed::fastest_ahead(double elapsed, double unit) const {
+  double fastest = 0.0;
+  for (std::size_t i = played(elapsed); i < sent_; ++i) {
+    const PvtRecord from = i == 0 ? PvtRecord{start_position_, 0, 0} : kept(i - 1).record;
+    const PvtRecord& to = kept(i).record;
+    if (to.time == 0) break;
+    const double mean = (static_cast<double>(to.position) - from.position) / (1e-3 * to.time);
+    const double ends = unit * (static_cast<double>(from.velocity) + to.velocity);
+    fastest = std::max(
+        {fastest, std::abs(unit * from.velocity), std::abs(3.0 * mean - ends), std::abs(unit * to.velocity)});
+  }
+  return fastest;
+}
+
 // Record i must be there when record i - 2 has been reached, so that the drive always finds two.
 std::vector<RecordSlot> RecordFeed::slots(GoalTime start) const {
   const std::size_t places = limits_.capacity - kSpare;

@@ -18,10 +18,6 @@ namespace registers = silverlode::registers;
 
 namespace {
 
-/// How often an axis wants to be polled while it works towards something.
-constexpr HostDuration kPollInterval = 5ms;
-/// The same in motion: the ends of exchanges, which make room for the next, are events of their own.
-constexpr HostDuration kMotionPollInterval = 10ms;
 /// How often the drive is asked at rest.
 constexpr HostDuration kRestPeriod = 100ms;
 /// How often a drive in fault is asked that does not answer: each time takes the line from the others.
@@ -51,7 +47,8 @@ std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& p
 
 SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
                                silverlode::DeviceLink& device, LineStart* common_start)
-    : parameters_(std::move(parameters)),
+    : AxisBase({parameters.joint, parameters.bring_up_timeout}),
+      parameters_(std::move(parameters)),
       line_(line),
       device_(device),
       common_start_(common_start),
@@ -67,19 +64,8 @@ SilverlodeAxis::SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::
   if (common_start_ != nullptr) start_member_ = common_start_->join();
 }
 
-AxisState SilverlodeAxis::state() const {
+AxisState SilverlodeAxis::enabled_state() const {
   switch (phase_) {
-    case Phase::Offline:
-      return AxisState::Offline;
-    case Phase::Probing:
-    case Phase::Configuring:
-      return AxisState::Configuring;
-    case Phase::Disabled:
-      return AxisState::Disabled;
-    case Phase::Enabling:
-      return AxisState::Enabling;
-    case Phase::Ready:
-      return AxisState::Ready;
     case Phase::Clearing:
     case Phase::Filling:
       return AxisState::Loading;
@@ -92,31 +78,41 @@ AxisState SilverlodeAxis::state() const {
       return AxisState::Moving;
     case Phase::Braking:
     case Phase::Emptying:
-    case Phase::Disabling:
       return AxisState::Stopping;
-    case Phase::FaultBraking:
-      return AxisState::FaultStopping;
-    case Phase::Fault:
+    case Phase::Off:
+    case Phase::Ready:
       break;
   }
-  return AxisState::Fault;
+  return AxisState::Ready;
 }
 
 void SilverlodeAxis::poll(HostTime now) {
-  take_outcomes(now);
-  sequence_.poll(now);
-  run_phase(now);
+  AxisBase::poll(now);
   look_at_drive(now);
 }
 
-void SilverlodeAxis::run_phase(HostTime now) {
+void SilverlodeAxis::go_on(HostDuration away, HostTime now) {
+  sequence_.excuse(away);
+  sequence_.poll(now);
+}
+
+void SilverlodeAxis::poll_stage(HostTime now) {
+  switch (stage()) {
+    case Stage::Configuring:
+    case Stage::Disabling:
+      return advance_when_done(Stage::Disabled, now);
+    case Stage::Disabled:
+      return watch_rest(now);
+    case Stage::Enabling:
+      phase_ = Phase::Ready;
+      return advance_when_done(Stage::Enabled, now);
+    default:
+      return poll_enabled(now);
+  }
+}
+
+void SilverlodeAxis::poll_enabled(HostTime now) {
   switch (phase_) {
-    case Phase::Probing:
-      return poll_probing(now);
-    case Phase::Configuring:
-      return poll_configuring(now);
-    case Phase::Enabling:
-      return advance_when_done(Phase::Ready, now);
     case Phase::Clearing:
       return poll_clearing(now);
     case Phase::Filling:
@@ -132,45 +128,30 @@ void SilverlodeAxis::run_phase(HostTime now) {
     case Phase::Braking:
       return poll_braking(now);
     case Phase::Emptying:
-      return advance_when_done(Phase::Ready, now);
-    case Phase::Disabling:
-      return advance_when_done(Phase::Disabled, now);
-    case Phase::FaultBraking:
-      return poll_fault_braking(now);
-    case Phase::Disabled:
+      if (sequence_done(now)) enter_phase(Phase::Ready, now);
+      return;
     case Phase::Ready:
     case Phase::Loaded:
       return watch_rest(now);
-    case Phase::Offline:
-    case Phase::Fault:
+    case Phase::Off:
       return;
   }
 }
 
+// What waits for the line is served when the line becomes free, which is an event of its own.
 HostTime SilverlodeAxis::next_deadline() const {
-  if (phase_ == Phase::Offline) return kNever;
-  // What waits for the line is served when the line becomes free, which is an event of its own.
-  const HostTime look = status_.asked_at() + look_period();
-  const HostTime work = last_poll_ + kPollInterval;
-  switch (phase_) {
-    case Phase::Disabled:
-    case Phase::Ready:
-    case Phase::Loaded:
-    case Phase::Fault:
-      return std::max(look, work);
-    case Phase::Moving:
-      return last_poll_ + kMotionPollInterval;
-    default:
-      return work;
-  }
+  if (stage() == Stage::Offline) return kNever;
+  const HostTime work = polled() + (phase() == Phase::Moving ? kMotionPollInterval : kPollInterval);
+  const bool rests = AxisBase::next_deadline() == kNever;
+  return rests ? std::max(status_.asked_at() + look_period(), work) : work;
 }
 
 /// Gives every outcome to whom it belongs.
-void SilverlodeAxis::take_outcomes(HostTime now) {
-  last_poll_ = now;
+void SilverlodeAxis::listen(HostTime now) {
+  const HostTime known = feedback().time;
   while (const auto outcome = device_.take_outcome()) {
     if (delivery_->owns(*outcome)) {
-      if (const auto failure = delivery_->take(*outcome, now)) fail_in_motion(*failure, now);
+      if (const auto failure = delivery_->take(*outcome, now)) fail(*failure, now);
     } else if (outcome->id == start_id_) {
       start_id_ = silverlode::kNoRequest;
       take_start(*outcome, now);
@@ -178,62 +159,54 @@ void SilverlodeAxis::take_outcomes(HostTime now) {
       status_.take(*outcome);
     }
   }
+  if (feedback().time != known) note_report();
 }
 
-// ---- bring-up and power stage: what the commands do is in silverlode_bring_up.cpp
+// ---- bring-up and power stage: what the commands do is in bring_up.cpp
 // ---------------------------------------
 
-void SilverlodeAxis::bring_up(HostTime now) {
-  configured_ = false;
-  fault_text_.clear();
-  bring_up_since_ = now;
+void SilverlodeAxis::forget_drive() {
   device_.drop_requests();
   status_.forget();
-  enter(Phase::Probing, now);
+}
+
+void SilverlodeAxis::probe(HostTime now) {
   sequence_.start({{silverlode::pol_request(device_.address()), {}}}, now);
 }
 
-void SilverlodeAxis::poll_probing(HostTime now) {
-  if (sequence_.running()) return;
-  if (sequence_.state() == CommandSequence::State::Done) {
-    enter(Phase::Configuring, now);
-    return sequence_.start(bring_up_steps(), now);
-  }
-  if (now - bring_up_since_ <= parameters_.bring_up_timeout)
-    return sequence_.start({{silverlode::pol_request(device_.address()), {}}}, now);
-  go_offline(
-      fmt::format(
-          "no drive answers within {:.1f} s ({}). Check its power, the cable, the address (`address` in "
-          "the configuration; 16 when it leaves the factory) and the rate (`baud`)",
-          seconds(parameters_.bring_up_timeout), sequence_.failure()),
-      now);
+std::optional<bool> SilverlodeAxis::probe_answer() const {
+  if (sequence_.running()) return std::nullopt;
+  return sequence_.state() == CommandSequence::State::Done;
 }
 
-void SilverlodeAxis::poll_configuring(HostTime now) {
-  if (!sequence_done(now)) return;
-  configured_ = true;
-  enter(Phase::Disabled, now);
+std::string SilverlodeAxis::no_answer_text() const {
+  return fmt::format(
+      " ({}). Check its power, the cable, the address (`address` in the configuration; 16 when it leaves the "
+      "factory) and the rate (`baud`)",
+      sequence_.failure());
 }
 
-void SilverlodeAxis::advance_when_done(Phase next, HostTime now) {
+void SilverlodeAxis::configure(HostTime now) { sequence_.start(bring_up_steps(), now); }
+
+void SilverlodeAxis::advance_when_done(Stage next, HostTime now) {
   if (sequence_done(now)) enter(next, now);
 }
 
 void SilverlodeAxis::enable(HostTime now) {
-  if (phase_ != Phase::Disabled) return;
-  enter(Phase::Enabling, now);
+  if (stage() != Stage::Disabled) return;
+  enter(Stage::Enabling, now);
   sequence_.start(enable_steps(), now);
 }
 
 void SilverlodeAxis::disable(HostTime now) {
-  if (phase_ != Phase::Ready) return;
-  enter(Phase::Disabling, now);
+  if (phase() != Phase::Ready) return;
+  enter(Stage::Disabling, now);
   sequence_.start({{silverlode::dmd_request(device_.address()), {}}}, now);
 }
 
 // Whatever has happened to it, the drive is set up anew: it may have lost its settings with its power.
 void SilverlodeAxis::reset_fault(HostTime now) {
-  if (phase_ == Phase::Fault || phase_ == Phase::Offline) bring_up(now);
+  if (stage() == Stage::Fault || stage() == Stage::Offline) bring_up(now);
 }
 
 // ---- watching
@@ -241,7 +214,7 @@ void SilverlodeAxis::reset_fault(HostTime now) {
 
 /// Asks the drive for its status when the line has nothing better to do, and after a while even if it has.
 void SilverlodeAxis::look_at_drive(HostTime now) {
-  if (phase_ == Phase::Offline || phase_ == Phase::Probing || phase_ == Phase::Configuring) return;
+  if (stage() == Stage::Offline || stage() == Stage::Probing || stage() == Stage::Configuring) return;
   if (status_.asking()) return;
   const HostDuration waited = now - status_.asked_at();
   const HostDuration period = look_period();
@@ -253,26 +226,8 @@ void SilverlodeAxis::look_at_drive(HostTime now) {
 
 HostDuration SilverlodeAxis::look_period() const {
   if (is_motion_phase()) return parameters_.status_period;
-  const bool in_fault = phase_ == Phase::Fault || phase_ == Phase::FaultBraking;
+  const bool in_fault = stage() == Stage::Fault || stage() == Stage::FaultStopping;
   return in_fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;
-}
-
-bool SilverlodeAxis::is_enabled() const {
-  switch (phase_) {
-    case Phase::Ready:
-    case Phase::Clearing:
-    case Phase::Filling:
-    case Phase::Loaded:
-    case Phase::Starting:
-    case Phase::Verifying:
-    case Phase::Moving:
-    case Phase::Ending:
-    case Phase::Braking:
-    case Phase::Emptying:
-      return true;
-    default:
-      return false;
-  }
 }
 
 void SilverlodeAxis::watch_rest(HostTime now) {
@@ -292,9 +247,9 @@ void SilverlodeAxis::watch_rest(HostTime now) {
 // ---- results
 // -------------------------------------------------------------------------------------------------------------------
 
-void SilverlodeAxis::enter(Phase phase, HostTime now) {
+void SilverlodeAxis::enter_phase(Phase phase, HostTime now) {
   phase_ = phase;
-  phase_since_ = now;
+  begin_phase(now);
 }
 
 bool SilverlodeAxis::sequence_done(HostTime now) {
@@ -302,23 +257,13 @@ bool SilverlodeAxis::sequence_done(HostTime now) {
   return sequence_.state() == CommandSequence::State::Done;
 }
 
-std::string SilverlodeAxis::who() const {
-  return fmt::format("Joint {} ({})", parameters_.joint, device_.name());
-}
-
-void SilverlodeAxis::fail(const std::string& reason, HostTime now) {
-  fault_text_ = fmt::format("{}: {}.", who(), reason);
+void SilverlodeAxis::give_up(HostTime) {
   delivery_->give_up();
   device_.drop_requests();
   sequence_.cancel();
   withdraw_start();
-  enter(Phase::Fault, now);
-}
-
-void SilverlodeAxis::go_offline(const std::string& reason, HostTime now) {
-  fail(reason, now);
-  configured_ = false;
-  enter(Phase::Offline, now);
+  clock_.stop();
+  heard_stop_ = false;
 }
 
 }  // namespace interpolated_motion::axis

@@ -31,7 +31,7 @@ void SilverlodeAxis::feed(HostTime now) {
 }
 
 void SilverlodeAxis::offer(bool more, HostTime now) {
-  if (const auto failure = delivery_->offer(more, rate_for_next(), now)) fail_in_motion(*failure, now);
+  if (const auto failure = delivery_->offer(more, rate_for_next(), now)) fail(*failure, now);
 }
 
 /// Goal seconds per drive second for the next segment.
@@ -44,9 +44,9 @@ double SilverlodeAxis::rate_for_next() const {
 
 void SilverlodeAxis::poll_moving(HostTime now) {
   if (auto look = std::exchange(status_.execution, std::nullopt)) take_execution(*look, now);
-  if (phase_ != Phase::Moving) return;
+  if (phase() != Phase::Moving) return;
   feed(now);
-  if (phase_ != Phase::Moving) return;
+  if (phase() != Phase::Moving) return;
   if (!feed_.all_sent() && now >= begin_) {
     const auto fill = feed_.waiting(clock_.elapsed(now), true);
     minimum_fill_ = std::min(minimum_fill_, static_cast<std::uint32_t>(fill));
@@ -70,7 +70,7 @@ void SilverlodeAxis::take_execution(const SilverlodeStatus::Execution& look, Hos
     return learn_clock(asked, instant->elapsed);
   }
   if (++misfits_ < kMisfits) return;
-  fail_in_motion(
+  fail(
       fmt::format("the drive executes a segment that was not sent for {:.3f} s of its motion ({} ticks left, "
                   "acceleration {}, velocity {}): a segment was changed or lost on the line",
                   expected, look.ticks_left, look.acceleration.value_or(0), look.velocity.value_or(0)),
@@ -87,19 +87,18 @@ void SilverlodeAxis::learn_clock(HostTime asked, double elapsed) {
 
 void SilverlodeAxis::watch_motion(HostTime now) {
   if (!status_.silence.empty())
-    return fail_in_motion(fmt::format("the drive does not answer ({})", std::exchange(status_.silence, {})),
-                          now);
+    return fail(fmt::format("the drive does not answer ({})", std::exchange(status_.silence, {})), now);
   if (status_.io.fault() && status_.io_time > clock_.start_time())
-    return fail_in_motion("the drive reports: " + status_.io.text(), now);
+    return fail("the drive reports: " + status_.io.text(), now);
   const bool looked = status_.io_time > clock_.start_time();
   if (looked && !status_.io.trajectory_active()) return end_of_motion(now);
-  if (now - std::max(feedback().time, clock_.start_time()) > parameters_.feedback_timeout) {
-    return fail_in_motion(
+  if (silence(now, std::max(feedback().time, clock_.start_time())) > parameters_.feedback_timeout) {
+    return fail(
         fmt::format("no position has come from the drive for {:.2f} s", seconds(now - feedback().time)), now);
   }
-  if (clock_.least_elapsed(now) > feed_.duration() + seconds(kOvertime)) {
-    fail_in_motion(
-        fmt::format("the drive still moves {:.1f} s after the end of its segments", seconds(kOvertime)), now);
+  if (clock_.least_elapsed(status_.io_time) > feed_.duration() + seconds(kOvertime)) {
+    fail(fmt::format("the drive still moves {:.1f} s after the end of its segments", seconds(kOvertime)),
+         now);
   }
 }
 
@@ -107,13 +106,13 @@ void SilverlodeAxis::end_of_motion(HostTime now) {
   if (!feed_.all_sent() ||
       clock_.most_elapsed(status_.io_time) + seconds(parameters_.execution_time) < feed_.duration()) {
     ++underruns_;
-    return fail_in_motion(fmt::format("the drive left the interpolated motion {:.3f} s after the start "
-                                      "instead of {:.3f} s: its queue ran "
-                                      "dry, or something has stopped it",
-                                      clock_.elapsed(status_.io_time), feed_.duration()),
-                          now);
+    return fail(fmt::format("the drive left the interpolated motion {:.3f} s after the start "
+                            "instead of {:.3f} s: its queue ran "
+                            "dry, or something has stopped it",
+                            clock_.elapsed(status_.io_time), feed_.duration()),
+                now);
   }
-  enter(Phase::Ending, now);
+  enter_phase(Phase::Ending, now);
   sequence_.start({read_rest(), read_position()}, now);
 }
 
@@ -130,7 +129,7 @@ void SilverlodeAxis::poll_ending(HostTime now) {
   }
   clock_.stop();
   finished_ = true;
-  enter(Phase::Ready, now);
+  enter_phase(Phase::Ready, now);
 }
 
 GoalTime SilverlodeAxis::playback(HostTime when) const { return stream_begin_ + playback_of_feed(when); }
@@ -138,7 +137,7 @@ GoalTime SilverlodeAxis::playback(HostTime when) const { return stream_begin_ + 
 GoalTime SilverlodeAxis::playback_of_feed(HostTime when) const {
   if (!feed_.loaded()) return GoalTime{0.0};
   if (clock_.running() && second_wait_made_) return feed_.goal_time_at(clock_.elapsed(when));
-  if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - phase_since_)};
+  if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - since())};
   return feed_.start_goal_time() - GoalTime{parameters_.start_lead};
 }
 

@@ -75,7 +75,7 @@ void SilverlodeAxis::load(HostTime now) {
   clock_.stop();
   underruns_at_load_ = underruns_;
   refused_at_load_ = delivery_->refused_writes();
-  enter(Phase::Clearing, now);
+  enter_phase(Phase::Clearing, now);
   auto steps = clear_status();
   for (auto& step : delivery_->clear_steps()) steps.push_back(std::move(step));
   steps.push_back(
@@ -98,21 +98,21 @@ void SilverlodeAxis::poll_clearing(HostTime now) {
                     rest_counts_, read_target_),
         now);
   }
-  enter(Phase::Filling, now);
+  enter_phase(Phase::Filling, now);
 }
 
 void SilverlodeAxis::poll_filling(HostTime now) {
   if (delivery_->delivered() == 1) {
     minimum_fill_ = static_cast<std::uint32_t>(delivery_->capacity());
-    return enter(Phase::Loaded, now);
+    return enter_phase(Phase::Loaded, now);
   }
   offer(feed_.sent() == 0, now);
-  if (phase_ == Phase::Filling && expired(now, kFillTimeout))
+  if (phase() == Phase::Filling && expired(now, kFillTimeout))
     fail("its first segment does not get over the line: is the line overloaded or down?", now);
 }
 
 void SilverlodeAxis::arm(HostTime begin, HostTime now) {
-  if (phase_ != Phase::Loaded) return;
+  if (phase() != Phase::Loaded) return;
   if (seconds(begin - now) < (1.0 - kLatestTold) * parameters_.start_lead) {
     return fail(
         fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s before: the "
@@ -122,7 +122,7 @@ void SilverlodeAxis::arm(HostTime begin, HostTime now) {
   }
   begin_ = begin;
   if (stream_origin_) stream_begin_ = GoalTime{seconds(begin - *stream_origin_)};
-  enter(Phase::Starting, now);
+  enter_phase(Phase::Starting, now);
   if (common_start_ != nullptr) return common_start_->ask(start_member_);
   start_id_ = device_.request(silverlode::ims_request(device_.address(), parameters_.ims_arguments));
 }
@@ -134,18 +134,18 @@ void SilverlodeAxis::withdraw_start() {
 // Without an answer to IMS it is not known whether the drive has begun; it only waits so far, so it is
 // stopped.
 void SilverlodeAxis::take_start(const Outcome& outcome, HostTime now) {
-  if (phase_ != Phase::Starting) return;
-  if (!outcome.accepted()) return fail_in_motion(device_.text(outcome), now);
+  if (phase() != Phase::Starting) return;
+  if (!outcome.accepted()) return fail(device_.text(outcome), now);
   clock_.start(outcome.request_end + parameters_.execution_time / 2);
   begin_motion(now);
 }
 
 void SilverlodeAxis::poll_starting(HostTime now) {
-  if (expired(now, kFillTimeout)) return fail_in_motion("IMS does not get over the line", now);
+  if (expired(now, kFillTimeout)) return fail("IMS does not get over the line", now);
   const auto sent = common_start_ != nullptr ? common_start_->sent() : std::nullopt;
   if (!sent) return;
   clock_.start(*sent + parameters_.execution_time / 2);
-  enter(Phase::Verifying, now);
+  enter_phase(Phase::Verifying, now);
   sequence_.start({check_begun()}, now);
 }
 
@@ -163,12 +163,12 @@ CommandSequence::Step SilverlodeAxis::check_begun() {
 }
 
 void SilverlodeAxis::poll_verifying(HostTime now) {
-  if (sequence_.state() == CommandSequence::State::Failed) return fail_in_motion(sequence_.failure(), now);
+  if (sequence_.state() == CommandSequence::State::Failed) return fail(sequence_.failure(), now);
   if (sequence_.state() == CommandSequence::State::Done) begin_motion(now);
 }
 
 void SilverlodeAxis::begin_motion(HostTime now) {
-  enter(Phase::Moving, now);
+  enter_phase(Phase::Moving, now);
   make_second_wait(now);
 }
 
@@ -176,7 +176,7 @@ void SilverlodeAxis::begin_motion(HostTime now) {
 void SilverlodeAxis::make_second_wait(HostTime now) {
   const double until_begin = seconds(begin_ - clock_.start_time()) * drive_rate();
   const auto ticks = std::llround((until_begin - feed_.queue_end()) / tick());
-  if (ticks < 1) return fail_in_motion("the start command came too late for the common start", now);
+  if (ticks < 1) return fail("the start command came too late for the common start", now);
   feed_.wait(ticks);
   second_wait_made_ = true;
 }

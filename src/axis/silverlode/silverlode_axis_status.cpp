@@ -14,13 +14,13 @@ std::string SilverlodeAxis::description() const {
 }
 
 double SilverlodeAxis::rest_position() const {
-  return parameters_.transmission.joint_position(is_enabled() ? rest_counts_ : status_.actual_counts());
+  return parameters_.transmission.joint_position(enabled() ? rest_counts_ : status_.actual_counts());
 }
 
 void SilverlodeAxis::status(HostTime now, AxisStatus& out) const {
   const double elapsed = clock_.elapsed(now);
   const bool playing = is_motion_phase() && feed_.loaded();
-  out.online = phase_ != Phase::Offline && phase_ != Phase::Probing;
+  out.online = stage() != Stage::Offline && stage() != Stage::Probing;
   out.state = state_text();
   out.statusword = status_.polling.raw;
   out.mode = 0;
@@ -29,7 +29,7 @@ void SilverlodeAxis::status(HostTime now, AxisStatus& out) const {
   out.error_code = status_.polling.fault() ? status_.polling.raw : std::uint16_t{0};
   out.error_text = status_.polling.fault() ? status_.polling.text() : std::string();
   out.capacity = static_cast<std::uint32_t>(delivery_->capacity());
-  out.fill = feed_.loaded() && (playing || phase_ == Phase::Loaded)
+  out.fill = feed_.loaded() && (playing || phase() == Phase::Loaded)
                  ? static_cast<std::uint32_t>(feed_.waiting(elapsed, clock_.running()))
                  : 0;
   out.fill_time = playing ? std::max(0.0, feed_.queue_end() - elapsed) : 0.0;
@@ -50,11 +50,11 @@ double SilverlodeAxis::demand_at(HostTime when) const {
 }
 
 std::string SilverlodeAxis::state_text() const {
-  if (phase_ == Phase::FaultBraking) return "Stopping with a fault";
-  if (phase_ == Phase::Fault || status_.polling.fault()) return "Fault";
-  if (phase_ == Phase::Offline || phase_ == Phase::Probing) return "Offline";
+  if (stage() == Stage::FaultStopping) return "Stopping with a fault";
+  if (stage() == Stage::Fault || status_.polling.fault()) return "Fault";
+  if (stage() == Stage::Offline || stage() == Stage::Probing) return "Offline";
   if (is_motion_phase()) return "Interpolated motion";
-  return is_enabled() ? "Driver enabled" : "Driver disabled";
+  return enabled() ? "Driver enabled" : "Driver disabled";
 }
 
 AxisReport SilverlodeAxis::report() const {

@@ -15,16 +15,16 @@ using silverlode::Outcome;
 void SilverlodeAxis::stop(HostTime now) {
   delivery_->give_up();
   withdraw_start();
-  switch (phase_) {
+  switch (phase()) {
     case Phase::Starting:
     case Phase::Verifying:
     case Phase::Moving:
-      enter(Phase::Braking, now);
+      enter_phase(Phase::Braking, now);
       return start_braking(now);
     case Phase::Clearing:
     case Phase::Filling:
     case Phase::Loaded:
-      enter(Phase::Emptying, now);
+      enter_phase(Phase::Emptying, now);
       return sequence_.start(emptying_steps(), now);
     default:
       return;
@@ -68,21 +68,10 @@ void SilverlodeAxis::start_braking(HostTime now) {
 }
 
 void SilverlodeAxis::poll_braking(HostTime now) {
-  if (sequence_.state() == CommandSequence::State::Failed) return fail_in_motion(sequence_.failure(), now);
+  if (sequence_.state() == CommandSequence::State::Failed) return fail(sequence_.failure(), now);
   if (sequence_.state() != CommandSequence::State::Done) return;
   clock_.stop();
-  enter(Phase::Ready, now);
-}
-
-/// The host has found a fault while the drive may be moving. The axis is in fault for the group at once, but
-/// not at rest before the drive stands.
-void SilverlodeAxis::fail_in_motion(const std::string& reason, HostTime now) {
-  fail(reason, now);
-  rest_due_ = now + longest_motion(now);
-  heard_stop_ = false;
-  clock_.stop();
-  enter(Phase::FaultBraking, now);
-  start_fault_braking(now);
+  enter_phase(Phase::Ready, now);
 }
 
 /// How long the drive goes on when it hears nothing more: through all that may be in its queue, and down the
@@ -95,7 +84,8 @@ HostDuration SilverlodeAxis::longest_motion(HostTime now) const {
   return host_duration(queued + ramp);
 }
 
-void SilverlodeAxis::start_fault_braking(HostTime now) {
+void SilverlodeAxis::press_stop(HostTime now) {
+  if (sequence_.running()) return;
   const auto heard = [this](const Outcome& outcome) -> std::optional<std::string> {
     heard_stop_ = outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused;
     return heard_stop_ ? std::nullopt : std::optional<std::string>(device_.text(outcome));
@@ -105,23 +95,13 @@ void SilverlodeAxis::start_fault_braking(HostTime now) {
       now);
 }
 
-/// A drive that does not answer is told again until its queue must be over and it has braked by itself.
-void SilverlodeAxis::poll_fault_braking(HostTime now) {
-  const bool waits = heard_stop_ || now < rest_due_;
-  if (sequence_.running() && waits) return;
-  const bool stands = sequence_.state() == CommandSequence::State::Done;
-  if (!stands && now < rest_due_) return start_fault_braking(now);
-  if (stands) {
-    fault_text_ += " The drive has come to rest.";
-  } else {
-    fault_text_ += fmt::format(
-        " The drive has not been seen at rest ({}); {:.1f} s after the fault its queue is over, and it has "
-        "braked by itself if it still works.",
-        sequence_.running() ? "it does not answer" : sequence_.failure(), seconds(now - phase_since_));
-  }
+std::string SilverlodeAxis::unseen_text() const {
+  return sequence_.running() ? "it does not answer" : sequence_.failure();
+}
+
+void SilverlodeAxis::on_fault_stopped() {
   device_.drop_requests();
   sequence_.cancel();
-  enter(Phase::Fault, now);
 }
 
 }  // namespace interpolated_motion::axis

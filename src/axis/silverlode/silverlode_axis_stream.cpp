@@ -41,7 +41,7 @@ GoalTime SilverlodeAxis::stream_lead() const {
 }
 
 HostTime SilverlodeAxis::committed() const {
-  if (phase_ != Phase::Moving || !stream_origin_ || !second_wait_made_ || feed_.ending()) return kNever;
+  if (phase() != Phase::Moving || !stream_origin_ || !second_wait_made_ || feed_.ending()) return kNever;
   return *stream_origin_ + host_duration((stream_begin_ + feed_.knot_goal_time()).count());
 }
 

@@ -38,6 +38,40 @@ TEST(RecordFeed, NeverFillsTheFifoToTheBrim) {
   EXPECT_EQ(send_all_due(feed, 0.0101, 0.0110), 1);
 }
 
+TEST(RecordFeed, CountsWhatHasBeenPlayedInWhateverOrderItIsAsked) {
+  RecordFeed feed;
+  feed.load(stream(100, 10), {64, 10.0});
+  for (int i = 0; i < 1000; ++i) {
+    const int ms = i * 7919 % 1013;
+    EXPECT_EQ(feed.played(1e-3 * ms + 5e-4), static_cast<std::size_t>(ms < 1000 ? ms / 10 : 101)) << ms;
+  }
+}
+
+// From rest to rest over 100 counts in 100 ms a cubic is 1.5 times as fast half-way as in the mean.
+TEST(RecordFeed, VelocityAheadIsThatOfTheRecordsSent) {
+  RecordFeed feed;
+  feed.load(stream(3, 100), {64, 10.0});
+  EXPECT_EQ(feed.fastest_ahead(0.0, 1.0), 0.0);
+  feed.mark_sent();
+  EXPECT_GE(feed.fastest_ahead(0.0, 1.0), 1500.0);
+  EXPECT_LE(feed.fastest_ahead(0.0, 1.0), 3000.0);
+  EXPECT_EQ(feed.fastest_ahead(0.101, 1.0), 0.0) << "the second record has not been sent";
+  while (!feed.all_sent()) feed.mark_sent();
+  EXPECT_GE(feed.fastest_ahead(0.25, 1.0), 1500.0);
+  EXPECT_EQ(feed.fastest_ahead(0.301, 1.0), 0.0);
+}
+
+TEST(RecordFeed, VelocityAheadIsInTheUnitOfTheDrive) {
+  encoding::PvtStream straight;
+  straight.records = {{100, 500, 200}, {200, 500, 100}, {250, 0, 200}};
+  straight.duration = DriveMilliseconds(500);
+  RecordFeed feed;
+  feed.load(straight, {64, 10.0});
+  while (!feed.all_sent()) feed.mark_sent();
+  EXPECT_NEAR(feed.fastest_ahead(0.0, 2.0), 1000.0, 1e-9);
+  EXPECT_NEAR(feed.fastest_ahead(0.25, 2.0), 1000.0, 1e-9);
+}
+
 TEST(RecordFeed, KeepsTheHorizonAhead) {
   RecordFeed feed;
   feed.load(stream(200, 100), {64, 2.0});

@@ -77,9 +77,13 @@ TEST_F(EposHostStall, BeyondTheHeartbeatTimeoutStopsTheDriveByItself) {
 TEST_F(EposHostStall, ASilentDriveIsMissedAfterTheFeedbackTimeout) {
   drive_.silence(true, now());
   const HostTime begin = now();
-  ASSERT_TRUE(comes_to(AxisState::Fault));
+  ASSERT_TRUE(comes_to(AxisState::FaultStopping));
   EXPECT_NEAR(seconds(now() - begin), 0.25, 0.03);
   EXPECT_NE(axis.fault_text().find("no position"), std::string::npos) << axis.fault_text();
+  ASSERT_TRUE(run_until([&] { return axis.state() != AxisState::FaultStopping; }));
+  const double stopped = drive_.position();
+  run(0.5);
+  EXPECT_NEAR(drive_.position(), stopped, 1.0) << "the fault was over before the drive stood";
 }
 
 class EposPatientHostStall : public EposHostStall {
@@ -99,7 +103,7 @@ TEST_F(EposPatientHostStall, ASilentDriveIsMissedThoughTheHostIsAwayAgainAndAgai
     stall(milliseconds(150));
     run(0.05);
   }
-  EXPECT_EQ(axis.state(), AxisState::Fault);
+  EXPECT_EQ(axis.state(), AxisState::FaultStopping);
   EXPECT_NE(axis.fault_text().find("no position"), std::string::npos) << axis.fault_text();
 }
 

@@ -77,7 +77,10 @@ class CyclicAxis : public Cia402Axis {
   void on_enabled(HostTime now) override;
   void poll_enabled(HostTime now) override;
   AxisState enabled_state() const override;
+  bool is_motion_phase() const override { return phase_ == Phase::Moving || phase_ == Phase::Braking; }
+  HostDuration longest_motion(HostTime now) const override;
   void give_up(HostTime now) override;
+  void press_stop(HostTime now) override;
   CyclicTelemetry& drive() override { return telemetry_; }
   const CyclicTelemetry& drive() const override { return telemetry_; }
   std::string text_of(const canopen::Emcy& emcy) const override;
@@ -93,7 +96,7 @@ class CyclicAxis : public Cia402Axis {
   void come_to_rest(HostTime now);
 
   Phase phase() const { return enabled() ? phase_ : Phase::Off; }
-  void enter(Phase phase, HostTime now);
+  void enter_phase(Phase phase, HostTime now);
   encoding::SetpointEncoding encoding() const;
   double sync_delay() const { return master().sync_timing().delay(); }
 

@@ -85,7 +85,11 @@ class EposAxis : public Cia402Axis {
   void on_enabled(HostTime now) override;
   void poll_enabled(HostTime now) override;
   AxisState enabled_state() const override;
+  bool is_motion_phase() const override;
+  HostDuration longest_motion(HostTime now) const override;
   void give_up(HostTime now) override;
+  void press_stop(HostTime now) override;
+  bool halted() const override;
   EposTelemetry& drive() override { return telemetry_; }
   const EposTelemetry& drive() const override { return telemetry_; }
   std::string text_of(const canopen::Emcy& emcy) const override;
@@ -107,10 +111,9 @@ class EposAxis : public Cia402Axis {
   void watch_motion(HostTime now);
 
   Phase phase() const { return enabled() ? phase_ : Phase::Off; }
-  void enter(Phase phase, HostTime now);
-  bool is_motion_phase() const { return phase() == Phase::Armed || phase() == Phase::Moving; }
+  void enter_phase(Phase phase, HostTime now);
+  bool is_playing() const { return phase() == Phase::Armed || phase() == Phase::Moving; }
   std::string clock_text() const;
-  void fail_in_motion(const std::string& reason, HostTime now);
   void read_rest(std::vector<SdoSequence::Step> before, Phase phase, HostTime now);
 
   encoding::PvtEncoding encoding() const;

@@ -56,6 +56,9 @@ class RecordFeed {
   std::size_t played(double elapsed) const;
   /// Seconds of motion in the FIFO.
   double time_ahead(double elapsed) const;
+  /// Magnitude that the velocity does not exceed from `elapsed` on in the records sent so far, counts/s;
+  /// `unit`: counts/s in one unit of a record's velocity.
+  double fastest_ahead(double elapsed, double unit) const;
   std::int32_t start_position() const { return start_position_; }  ///< counts
   std::int32_t final_position() const;                             ///< counts
 

@@ -35,6 +35,8 @@ class CommandSequence {
   void insert(std::vector<Step> steps);
   void cancel();
 
+  /// The host was away for so long: that is not the line's fault.
+  void excuse(HostDuration away) { waiting_since_ += away; }
   /// Sends the next command, when none is under way and the drive's queue has room.
   void poll(HostTime now);
   /// Takes the outcome if it belongs to this sequence.

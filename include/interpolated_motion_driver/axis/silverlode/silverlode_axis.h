@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/axis_base.h"
 #include "interpolated_motion_driver/axis/playback_clock.h"
 #include "interpolated_motion_driver/axis/silverlode/command_sequence.h"
 #include "interpolated_motion_driver/axis/silverlode/line_start.h"
@@ -26,23 +26,19 @@ namespace interpolated_motion::axis {
 /// follow, each encoded when it is due, at a rate that takes the drive's crystal into account; the segment
 /// with time 0 ends the motion. If the host stays silent the queue runs dry, and the drive brakes by itself
 /// with register 19. How a segment gets into the drive is SegmentDelivery's matter.
-class SilverlodeAxis : public Axis {
+class SilverlodeAxis : public AxisBase {
  public:
   /// `common_start`: what starts the drives of the line together; null when each gets an IMS of its own. It,
   /// `line` and `device` must outlive the axis. Throws std::invalid_argument, naming joint and parameter.
   SilverlodeAxis(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
                  silverlode::DeviceLink& device, LineStart* common_start = nullptr);
 
-  const std::string& joint() const override { return parameters_.joint; }
   const std::string& bus() const override { return line_.line_name(); }
   std::string description() const override;
-  AxisState state() const override;
-  const std::string& fault_text() const override { return fault_text_; }
 
   void poll(HostTime now) override;
   HostTime next_deadline() const override;
 
-  void bring_up(HostTime now) override;
   void enable(HostTime now) override;
   void disable(HostTime now) override;
   void reset_fault(HostTime now) override;
@@ -73,12 +69,9 @@ class SilverlodeAxis : public Axis {
   AxisReport report() const override;
 
  private:
+  /// Of the enabled drive.
   enum class Phase {
-    Offline,
-    Probing,  ///< waits for the first answer
-    Configuring,
-    Disabled,
-    Enabling,
+    Off,  ///< it is not enabled
     Ready,
     Clearing,
     Filling,  ///< the first segment is on its way
@@ -89,9 +82,6 @@ class SilverlodeAxis : public Axis {
     Ending,  ///< played; looks where the drive has stopped
     Braking,
     Emptying,
-    Disabling,
-    FaultBraking,  ///< a fault was found in motion; told to stop until it stands or cannot move any more
-    Fault,
   };
   using Steps = std::vector<CommandSequence::Step>;
 
@@ -100,9 +90,26 @@ class SilverlodeAxis : public Axis {
   /// The same where STP may have been lost or not obeyed: then it is sent again.
   static constexpr int kLooksAtFault = 50;
 
-  void run_phase(HostTime now);
-  void poll_probing(HostTime now);
-  void poll_configuring(HostTime now);
+  std::string device_name() const override { return device_.name(); }
+  void listen(HostTime now) override;
+  void go_on(HostDuration away, HostTime now) override;
+  void poll_stage(HostTime now) override;
+  void forget_drive() override;
+  void probe(HostTime now) override;
+  std::optional<bool> probe_answer() const override;
+  std::string no_answer_text() const override;
+  void configure(HostTime now) override;
+  AxisState enabled_state() const override;
+  bool may_move() const override { return is_motion_phase() || phase_ == Phase::Braking; }
+  HostDuration longest_motion(HostTime now) const override;
+  void give_up(HostTime now) override;
+  void press_stop(HostTime now) override;
+  bool stands() const override { return sequence_.state() == CommandSequence::State::Done; }
+  bool obeys_stop() const override { return sequence_.running() && heard_stop_; }
+  std::string unseen_text() const override;
+  void on_fault_stopped() override;
+
+  void poll_enabled(HostTime now);
   void poll_clearing(HostTime now);
   void poll_filling(HostTime now);
   void poll_starting(HostTime now);
@@ -110,8 +117,7 @@ class SilverlodeAxis : public Axis {
   void poll_moving(HostTime now);
   void poll_ending(HostTime now);
   void poll_braking(HostTime now);
-  void poll_fault_braking(HostTime now);
-  void advance_when_done(Phase next, HostTime now);
+  void advance_when_done(Stage next, HostTime now);
 
   // What is sent for what: silverlode_bring_up.cpp.
   Steps bring_up_steps();
@@ -130,7 +136,6 @@ class SilverlodeAxis : public Axis {
   std::int32_t stop_deceleration() const;
   double counts_per_radian() const;
 
-  void take_outcomes(HostTime now);
   void take_start(const silverlode::Outcome& outcome, HostTime now);
   void withdraw_start();
   CommandSequence::Step check_begun();
@@ -150,8 +155,6 @@ class SilverlodeAxis : public Axis {
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   void start_braking(HostTime now);
-  void start_fault_braking(HostTime now);
-  HostDuration longest_motion(HostTime now) const;
 
   encoding::ImsEncoding encoding() const;
   encoding::ImsEncoding stream_encoding() const;
@@ -160,17 +163,12 @@ class SilverlodeAxis : public Axis {
   double tick() const { return parameters_.scale.tick; }
   double demand_at(HostTime when) const;
   std::string state_text() const;
+  Phase phase() const { return enabled() ? phase_ : Phase::Off; }
   bool is_motion_phase() const {
-    return phase_ == Phase::Starting || phase_ == Phase::Verifying || phase_ == Phase::Moving;
+    return phase() == Phase::Starting || phase() == Phase::Verifying || phase() == Phase::Moving;
   }
-  bool is_enabled() const;
-  void enter(Phase phase, HostTime now);
-  bool expired(HostTime now, HostDuration limit) const { return now - phase_since_ > limit; }
+  void enter_phase(Phase phase, HostTime now);
   bool sequence_done(HostTime now);
-  std::string who() const;
-  void fail(const std::string& reason, HostTime now);
-  void fail_in_motion(const std::string& reason, HostTime now);
-  void go_offline(const std::string& reason, HostTime now);
 
   SilverlodeAxisParameters parameters_;
   silverlode::LineMaster& line_;
@@ -180,14 +178,8 @@ class SilverlodeAxis : public Axis {
   CommandSequence sequence_;
   SilverlodeStatus status_;
 
-  Phase phase_ = Phase::Offline;
-  HostTime phase_since_{};
-  HostTime last_poll_{};
-  HostTime bring_up_since_{};
-  bool configured_ = false;
-  std::string fault_text_;
-  bool heard_stop_ = false;  ///< whether the drive has answered to STP since then
-  HostTime rest_due_{};      ///< of a drive that hears nothing more since a fault was found
+  Phase phase_ = Phase::Off;
+  bool heard_stop_ = false;  ///< whether the drive has answered to STP since a fault was found
   std::string revision_;
   bool multi_register_ = true;
 
