@@ -6,15 +6,6 @@
 
 namespace interpolated_motion::axis {
 
-using namespace std::chrono_literals;
-
-namespace {
-
-/// Polls further apart than this mean that the host was away: stopped, or starved by other programs.
-constexpr HostDuration kHostStall = 100ms;
-
-}  // namespace
-
 AxisState AxisBase::state() const {
   switch (stage_) {
     case Stage::Offline:
@@ -28,7 +19,7 @@ AxisState AxisBase::state() const {
     case Stage::Enabling:
       return AxisState::Enabling;
     case Stage::Enabled:
-      return enabled_state();
+      return player_->enabled_state();
     case Stage::Disabling:
       return AxisState::Stopping;
     case Stage::FaultStopping:
@@ -39,23 +30,14 @@ AxisState AxisBase::state() const {
   return AxisState::Fault;
 }
 
-// What came while the host was away is heard before its absence is noted: it is older.
 void AxisBase::poll(HostTime now) {
   listen(now);
-  go_on(note_stall(now), now);
+  if (feedback().time != reported_) {
+    reported_ = feedback().time;
+    time_.note_report();
+  }
+  go_on(time_.poll(now), now);
   run_stage(now);
-}
-
-/// Returns for how long the host was away, as far as it was within the stage or phase.
-HostDuration AxisBase::note_stall(HostTime now) {
-  const HostDuration passed = now - polled_;
-  const HostDuration away = passed > kHostStall ? passed : HostDuration::zero();
-  const bool within = polled_ >= since_;
-  polled_ = now;
-  absent_ += away;
-  if (!within) return HostDuration::zero();
-  away_ += away;
-  return away;
 }
 
 HostTime AxisBase::next_deadline() const {
@@ -67,9 +49,9 @@ HostTime AxisBase::next_deadline() const {
     case AxisState::Fault:
       return kNever;
     case AxisState::Moving:
-      return polled_ + kMotionPollInterval;
+      return time_.polled() + kMotionPollInterval;
     default:
-      return polled_ + kPollInterval;
+      return time_.polled() + kPollInterval;
   }
 }
 
@@ -80,6 +62,8 @@ void AxisBase::run_stage(HostTime now) {
       return;
     case Stage::Probing:
       return poll_probing(now);
+    case Stage::Enabled:
+      return player_->play(now);
     case Stage::FaultStopping:
       return poll_fault_stopping(now);
     default:
@@ -89,12 +73,9 @@ void AxisBase::run_stage(HostTime now) {
 
 void AxisBase::enter(Stage stage, HostTime now) {
   stage_ = stage;
-  begin_phase(now);
-}
-
-void AxisBase::begin_phase(HostTime now) {
-  since_ = now;
-  away_ = HostDuration::zero();
+  time_.begin(now);
+  if (stage == Stage::Resetting) fault_text_.clear();
+  if (stage == Stage::Enabled) player_->begin(now);
 }
 
 void AxisBase::bring_up(HostTime now) {
@@ -112,7 +93,7 @@ void AxisBase::poll_probing(HostTime now) {
     enter(Stage::Configuring, now);
     return configure(now);
   }
-  if (!expired(now, settings_.bring_up_timeout)) return probe(now);
+  if (!time_.expired(now, settings_.bring_up_timeout)) return probe(now);
   go_offline(fmt::format("no drive answers within {:.1f} s{}", seconds(settings_.bring_up_timeout),
                          no_answer_text()),
              now);
@@ -127,17 +108,19 @@ void AxisBase::lose(const std::string& reason, HostTime now) { end_in(Stage::Off
 void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
   after_stop_ = stage;
   if (stage_ == Stage::FaultStopping) return;
-  const bool moving = enabled() && may_move();
-  if (moving) rest_due_ = now + longest_motion(now);
+  const bool moving = enabled() && is_powered() && player_->may_move();
+  if (moving) rest_due_ = now + player_->longest_motion(now);
   fault_text_ = fmt::format("{}: {}.", who(), reason);
-  give_up(now);
+  player_->give_up(now);
+  drop_work();
   enter(moving ? Stage::FaultStopping : stage, now);
   if (moving) press_stop(now);
 }
 
 void AxisBase::go_offline(const std::string& reason, HostTime now) {
   if (stage_ != Stage::FaultStopping) fault_text_ = fmt::format("{}: {}.", who(), reason);
-  give_up(now);
+  player_->give_up(now);
+  drop_work();
   enter(Stage::Offline, now);
 }
 
@@ -150,13 +133,13 @@ void AxisBase::poll_fault_stopping(HostTime now) {
       fmt::format(
           " The drive has not been seen at rest ({}); {:.1f} s after the fault all that it had to play "
           "is over, and it has braked by itself if it still works.",
-          unseen_text(), seconds(now - since_)),
+          unseen_text(), seconds(now - time_.since())),
       now);
 }
 
 void AxisBase::end_fault_stopping(const std::string& how, HostTime now) {
   fault_text_ += how;
-  on_fault_stopped();
+  drop_work();
   enter(after_stop_, now);
 }
 

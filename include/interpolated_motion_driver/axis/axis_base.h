@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/player.h"
+#include "interpolated_motion_driver/axis/power_stage.h"
+#include "interpolated_motion_driver/axis/stage_time.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
 
-/// What every kind of axis has to do whatever its drive: look for a drive that does not answer yet, know
-/// since when it does what it does and for how long the host was away meanwhile, notice that its drive has
-/// fallen silent, and bring a fault to an end, which is not before the drive stands.
-///
-/// Time limits are for the drive: what the host was away for, stopped or starved by other programs, does not
-/// count.
-class AxisBase : public Axis {
+/// What every power stage has to do whatever its drive: look for a drive that does not answer yet, keep the
+/// time of its stages, notice that its drive has fallen silent, let its player play while the drive is
+/// enabled, and bring a fault to an end, which is not before the drive stands.
+class AxisBase : public PowerStage {
  public:
   const std::string& joint() const override { return settings_.joint; }
   AxisState state() const override;
@@ -24,6 +24,21 @@ class AxisBase : public Axis {
   void poll(HostTime now) override;
   HostTime next_deadline() const override;
   void bring_up(HostTime now) override;
+
+  /// Who plays while the drive is enabled. To be called once, before anything else.
+  void attach(Player& player) { player_ = &player; }
+
+  // For the player.
+
+  bool enabled() const { return stage_ == Stage::Enabled; }
+  /// Of the stage, or of the phase within it that the player has begun.
+  StageTime& time() { return time_; }
+  /// The axis is in fault; in motion not before its drive stands. The first reason is the one that is told.
+  void fail(const std::string& reason, HostTime now);
+  /// The drive is gone and does not move: it was off or restarted, or was never there.
+  void go_offline(const std::string& reason, HostTime now);
+  /// "Joint joint1 (can0 node 1)".
+  std::string who() const;
 
  protected:
   struct Settings {
@@ -60,7 +75,7 @@ class AxisBase : public Axis {
   virtual void listen(HostTime now) = 0;
   /// Goes on with what has been begun; the host was `away` since it did so last.
   virtual void go_on(HostDuration away, HostTime now) = 0;
-  /// Of the stages from Configuring to Resetting.
+  /// Of the stages from Configuring to Resetting, but for Enabled.
   virtual void poll_stage(HostTime now) = 0;
 
   /// Nothing is known of the drive any more.
@@ -74,14 +89,10 @@ class AxisBase : public Axis {
   /// The drive has answered: begins to identify, verify and configure it.
   virtual void configure(HostTime now) = 0;
 
-  /// Of the phase the enabled drive is in.
-  virtual AxisState enabled_state() const = 0;
-  /// The enabled drive is moving, or may be, for all that is known.
-  virtual bool may_move() const = 0;
-  /// How long it moves at most when it hears nothing more.
-  virtual HostDuration longest_motion(HostTime now) const = 0;
-  /// The axis is about to be in fault: nothing more is sent that would move the drive.
-  virtual void give_up(HostTime now) = 0;
+  /// Of an enabled drive: its power stage may be on, for all that it has told.
+  virtual bool is_powered() const { return true; }
+  /// Gives up what has been begun.
+  virtual void drop_work() = 0;
   /// Tells the drive to stop; called again and again until it stands, and sends what is due.
   virtual void press_stop(HostTime now) = 0;
   /// The drive has shown, since it was told to stop, that it stands.
@@ -90,39 +101,16 @@ class AxisBase : public Axis {
   virtual bool obeys_stop() const { return false; }
   /// Why it is not known whether the drive stands.
   virtual std::string unseen_text() const = 0;
-  /// The drive is no longer told to stop.
-  virtual void on_fault_stopped() {}
 
   // For derived classes.
 
   Stage stage() const { return stage_; }
-  bool enabled() const { return stage_ == Stage::Enabled; }
   void enter(Stage stage, HostTime now);
-
-  /// A phase within a stage begins, with its own time.
-  void begin_phase(HostTime now);
-  HostTime since() const { return since_; }
-  HostTime polled() const { return polled_; }
-  /// `limit` is over since the stage or phase began, as far as the host was there.
-  bool expired(HostTime now, HostDuration limit) const { return now - since_ - away_ > limit; }
-  /// A position has come from the drive.
-  void note_report() { absent_at_report_ = absent_; }
-  /// How long no position has come, the last one of `last`, as far as the host was there to hear it.
-  HostDuration silence(HostTime now, HostTime last) const {
-    return now - last - (absent_ - absent_at_report_);
-  }
-
-  std::string who() const;
-  /// The axis is in fault; in motion not before its drive stands. The first reason is the one that is told.
-  void fail(const std::string& reason, HostTime now);
+  const StageTime& time() const { return time_; }
   /// As fail(), of a drive that is not heard any more.
   void lose(const std::string& reason, HostTime now);
-  void forget_fault() { fault_text_.clear(); }
-  /// The drive is gone and does not move: it was off or restarted, or was never there.
-  void go_offline(const std::string& reason, HostTime now);
 
  private:
-  HostDuration note_stall(HostTime now);
   void run_stage(HostTime now);
   void poll_probing(HostTime now);
   void poll_fault_stopping(HostTime now);
@@ -130,13 +118,11 @@ class AxisBase : public Axis {
   void end_fault_stopping(const std::string& how, HostTime now);
 
   const Settings settings_;
+  Player* player_ = nullptr;
+  StageTime time_;
+  HostTime reported_{};  ///< the last position that has come
   Stage stage_ = Stage::Offline;
   Stage after_stop_ = Stage::Fault;  ///< Fault or Offline
-  HostTime since_{};                 ///< begin of the stage, or of the phase within it
-  HostDuration away_{};              ///< of the host, since then
-  HostTime polled_{};
-  HostDuration absent_{};            ///< of the host, in all
-  HostDuration absent_at_report_{};  ///< the same when the last position came
   HostTime rest_due_{};              ///< of a drive that hears nothing more since a fault was found
   std::string fault_text_;
 };

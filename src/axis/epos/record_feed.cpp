@@ -61,9 +61,11 @@ bool RecordFeed::is_within_horizon(double played) const {
 }
 
 std::size_t RecordFeed::played(double elapsed) const {
-  const auto after = std::upper_bound(records_.begin(), records_.end(), elapsed,
-                                      [](double time, const Entry& entry) { return time < entry.end; });
-  return forgotten_ + static_cast<std::size_t>(after - records_.begin());
+  std::size_t count = std::min(played_, records_.size());
+  while (count < records_.size() && records_[count].end <= elapsed) ++count;
+  while (count > 0 && records_[count - 1].end > elapsed) --count;
+  played_ = count;
+  return forgotten_ + count;
 }
 
 double RecordFeed::time_ahead(double elapsed) const {

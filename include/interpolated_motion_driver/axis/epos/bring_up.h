@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,7 @@
 
 namespace interpolated_motion::axis {
 
-/// What bring-up has found out about a drive.
+/// What bring-up, and the first motion after it, have found out about a drive.
 struct EposFacts {
   cia402::Identity identity;
   std::uint32_t capacity = cia402::kFifoRecords;  ///< records, 0x60C4:01
@@ -20,6 +22,9 @@ struct EposFacts {
   std::string time_stamp_refusal;                 ///< why it is not, in the drive's words
   std::uint32_t max_velocity = 0;                 ///< velocity units, as written to 0x607F
   std::uint32_t max_acceleration = 0;             ///< rpm/s, as written to 0x60C5
+  /// Whether the drive takes a record out of its FIFO when it sets out for it (1) or when it has reached it
+  /// (0): the documents do not say; seen from the first report of a motion.
+  std::optional<std::size_t> early_release;
 
   double velocity_unit_rpm() const;
 };

@@ -84,6 +84,8 @@ class RecordFeed {
   std::deque<Entry> records_;
   std::size_t forgotten_ = 0;  ///< records before those kept
   std::size_t sent_ = 0;
+  mutable std::size_t played_ =
+      0;  ///< of records_, when it was asked last: mostly the next answer, or nearly
 };
 
 }  // namespace interpolated_motion::axis

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/cia402/power_stage.h"
+#include "interpolated_motion_driver/axis/cyclic/cyclic_device.h"
+#include "interpolated_motion_driver/axis/player.h"
+#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+
+namespace interpolated_motion::axis {
+
+/// Plays paths on a CiA 402 drive in the cyclic synchronous position mode (mode 8).
+///
+/// From the moment it is enabled the drive gets one target position per SYNC, at rest as well, and
+/// interpolates between them by itself. A goal's way: plan() executes its target positions as the drive will
+/// and holds them against the path; load() has nothing to load; from arm() on the target positions are those
+/// of the path. stop() leaves the path for one to rest within the joint's limits. When target positions fail
+/// to come the drive goes on along its polynomial for a few periods and then faults: a host that stalls or
+/// dies stops the drive so.
+class SetpointPlayer final : public Player {
+ public:
+  /// `stage` and `drive`, its device, must outlive the player.
+  SetpointPlayer(Cia402PowerStage& stage, CyclicDevice& drive) : stage_(stage), drive_(drive) {}
+
+  /// Sends the target position of the next SYNC, when the drive is to have one: right behind the SYNC before.
+  void send_target();
+
+  void begin(HostTime now) override;
+  void play(HostTime now) override;
+  AxisState enabled_state() const override;
+  bool may_move() const override { return phase_ == Phase::Moving || phase_ == Phase::Braking; }
+  HostDuration longest_motion(HostTime now) const override;
+  void give_up(HostTime now) override;
+
+  double rest_position() const override;
+  GoalTime start_lead() const override;
+  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  /// None: target positions go to the bus at rest as well, so no goal adds to what the bus carries.
+  std::vector<RecordSlot> record_slots() const override { return {}; }
+  double record_bus_time() const override { return drive_.parameters().record_bus_time; }
+  void load(HostTime now) override;
+  void arm(HostTime begin, HostTime now) override;
+  HostTime path_begin() const override;
+  void stop(HostTime now) override;
+
+  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  GoalTime stream_lead() const override;
+  HostTime committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  void follow() override;
+
+  GoalTime playback(HostTime when) const override;
+  /// The drive follows SYNC, so its clock is the host's.
+  GoalTime goal_time_at(double drive_seconds) const override {
+    return path_.start_time() + GoalTime{drive_seconds};
+  }
+  bool finished() const override { return finished_; }
+  void motion_status(HostTime now, AxisStatus& out) const override;
+  AxisReport report() const override;
+
+ private:
+  enum class Phase {
+    Off,        ///< the drive is not enabled
+    Following,  ///< waits until the drive follows its target positions
+    Ready,
+    Loading,
+    Loaded,
+    Moving,
+    Braking,
+  };
+
+  void poll_following(HostTime now);
+  void poll_moving(HostTime now);
+  void come_to_rest(HostTime now);
+  void enter(Phase phase, HostTime now);
+  encoding::SetpointEncoding encoding() const;
+
+  Cia402PowerStage& stage_;
+  CyclicDevice& drive_;
+  Phase phase_ = Phase::Off;
+  std::int32_t rest_counts_ = 0;
+
+  trajectory::Path planned_;
+  std::optional<HostTime> planned_origin_;  ///< host time of goal time 0, for a stream
+  trajectory::Path path_;
+  std::optional<HostTime> stream_origin_;
+  HostTime begin_ = kNever;
+  bool finished_ = false;
+
+  std::uint64_t sent_ = 0;
+  std::uint64_t sent_at_load_ = 0;
+  std::uint64_t missed_at_load_ = 0;
+  std::uint64_t refused_ = 0;  ///< target positions that the queue of the bus did not take
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// What an enabled drive does: it is loaded, started, fed and stopped. Its power stage begins it, lets it
+/// play and ends it; the other functions are those of Axis.
+class Player {
+ public:
+  Player() = default;
+  virtual ~Player() = default;
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  // For the power stage.
+
+  /// The drive has just been enabled.
+  virtual void begin(HostTime now) = 0;
+  /// Does what is due at `now`; as long as the drive is enabled.
+  virtual void play(HostTime now) = 0;
+  /// Of the enabled drive.
+  virtual AxisState enabled_state() const = 0;
+  /// The drive is moving, or may be for all that is known.
+  virtual bool may_move() const = 0;
+  /// How long it moves at most when it hears nothing more.
+  virtual HostDuration longest_motion(HostTime now) const = 0;
+  /// The drive is in fault or gone: nothing more is sent that would move it.
+  virtual void give_up(HostTime now) = 0;
+
+  // For the group.
+
+  virtual double rest_position() const = 0;
+  virtual GoalTime start_lead() const = 0;
+  virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
+  virtual std::vector<RecordSlot> record_slots() const = 0;
+  virtual double record_bus_time() const = 0;
+  virtual void load(HostTime now) = 0;
+  virtual void arm(HostTime begin, HostTime now) = 0;
+  virtual HostTime path_begin() const = 0;
+  virtual void stop(HostTime now) = 0;
+
+  virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
+  virtual GoalTime stream_lead() const = 0;
+  virtual HostTime committed() const = 0;
+  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path) = 0;
+  virtual void follow() = 0;
+
+  virtual GoalTime playback(HostTime when) const = 0;
+  virtual GoalTime goal_time_at(double drive_seconds) const = 0;
+  virtual bool finished() const = 0;
+  /// Sets what PowerStage::drive_status() does not.
+  virtual void motion_status(HostTime now, AxisStatus& out) const = 0;
+  virtual AxisReport report() const = 0;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "interpolated_motion_driver/axis/playback_clock.h"
+#include "interpolated_motion_driver/axis/silverlode/segment_feed.h"
+#include "interpolated_motion_driver/axis/silverlode/silverlode_parameters.h"
+#include "interpolated_motion_driver/axis/silverlode/status.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// Holds what a drive executes against what it was sent. The protocol has no checksum: a digit changed on the
+/// line makes another segment, and the drive acknowledges it; so that goes unnoticed for a moment only. What
+/// fits tells how far the drive has played.
+class ExecutionWatch {
+ public:
+  /// All must outlive the watch.
+  ExecutionWatch(const SilverlodeAxisParameters& parameters, const SegmentFeed& feed, PlaybackClock& clock)
+      : parameters_(parameters), feed_(feed), clock_(clock) {}
+
+  /// A motion begins.
+  void begin() { misfits_ = 0; }
+  /// Returns why the motion cannot go on.
+  std::optional<std::string> take(const SilverlodeStatus::Execution& look);
+  /// Error of the drive's clock as the last motion has shown it, ppm.
+  double clock_error_ppm() const { return clock_error_ppm_; }
+
+ private:
+  void learn_clock(HostTime asked, double elapsed);
+
+  const SilverlodeAxisParameters& parameters_;
+  const SegmentFeed& feed_;
+  PlaybackClock& clock_;
+  int misfits_ = 0;  ///< looks in a row at an execution that does not fit
+  double clock_error_ppm_ = 0.0;
+};
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/silverlode/segment_delivery.h"
+#include "interpolated_motion_driver/axis/silverlode/silverlode_parameters.h"
+#include "interpolated_motion_driver/encoding/ims/ims_encoder.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_master.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/units/expected.h"
+#include "interpolated_motion_driver/units/refusal.h"
+#include "interpolated_motion_driver/units/time.h"
+
+namespace interpolated_motion::axis {
+
+/// What a SilverLode drive is to play, before any of it has been sent.
+struct ImsPlan {
+  trajectory::Path path;
+  std::vector<RecordSlot> slots;
+  std::optional<HostTime> origin;  ///< host time of goal time 0, for a stream
+};
+
+/// How segments of goals, and of streams, are encoded. A segment is committed as a whole, so those of streams
+/// are kept short: as short as the line can follow, and twice as long at most.
+encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& parameters,
+                                        const SegmentDelivery& delivery);
+encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parameters,
+                                          const SegmentDelivery& delivery,
+                                          const silverlode::LineMaster& line);
+
+/// The plan of a goal: `path` from `rest_counts`, where the demand rests. It is encoded whole to see that it
+/// can be done and what the line has to carry.
+Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& parameters,
+                                         const SegmentDelivery& delivery, const trajectory::Path& path,
+                                         std::int32_t rest_counts);
+
+/// How far ahead of the present a stream is committed, at most.
+GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                         const silverlode::LineMaster& line);
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,270 @@
+#include "interpolated_motion_driver/axis/cyclic/setpoint_player.h"
+
+#include <fmt/format.h>
+
+#include "interpolated_motion_driver/protocol/canopen/object.h"
+#include "interpolated_motion_driver/trajectory/stream_path.h"
+
+namespace interpolated_motion::axis {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Periods from the moment a target position is chosen to the instant it is reached: it is sent right behind
+/// the SYNC before its own.
+constexpr int kLatency = 2;
+/// For the host to come round to it.
+constexpr GoalTime kHostMargin{0.005};
+/// With more control frames than this waiting, the bus is down: what is sent now would arrive too late.
+constexpr std::size_t kJammed = 128;
+/// Longest that drives are known to ride out missing target positions, periods.
+constexpr int kRideThrough = 10;
+
+}  // namespace
+
+// ---- for the power stage
+
+void SetpointPlayer::begin(HostTime now) {
+  rest_counts_ = drive_.enabled_at();
+  enter(Phase::Following, now);
+  poll_following(now);
+}
+
+void SetpointPlayer::play(HostTime now) {
+  switch (phase_) {
+    case Phase::Following:
+      return poll_following(now);
+    case Phase::Loading:
+      return enter(Phase::Loaded, now);
+    case Phase::Moving:
+      return poll_moving(now);
+    case Phase::Braking:
+      if (drive_.setpoints().played(now)) come_to_rest(now);
+      return;
+    case Phase::Off:
+    case Phase::Ready:
+    case Phase::Loaded:
+      return;
+  }
+}
+
+AxisState SetpointPlayer::enabled_state() const {
+  switch (phase_) {
+    case Phase::Ready:
+      return AxisState::Ready;
+    case Phase::Loading:
+      return AxisState::Loading;
+    case Phase::Loaded:
+      return AxisState::Loaded;
+    case Phase::Moving:
+      return AxisState::Moving;
+    case Phase::Braking:
+      return AxisState::Stopping;
+    case Phase::Off:
+    case Phase::Following:
+      break;
+  }
+  return AxisState::Enabling;
+}
+
+void SetpointPlayer::enter(Phase phase, HostTime now) {
+  phase_ = phase;
+  stage_.time().begin(now);
+}
+
+void SetpointPlayer::poll_following(HostTime now) {
+  const cia402::Statusword statusword = drive_.report().statusword;
+  if (statusword.follows_command()) return enter(Phase::Ready, now);
+  if (stage_.time().expired(now, Cia402PowerStage::kStateTimeout)) {
+    stage_.fail(
+        fmt::format("the drive is enabled but does not follow its target position (bit 12); statusword: {}",
+                    statusword.text()),
+        now);
+  }
+}
+
+/// A drive that is still enabled is told to brake by its quick stop, at rest as well: it gets no target
+/// positions any more.
+void SetpointPlayer::give_up(HostTime now) {
+  phase_ = Phase::Off;
+  const bool obeys = drive_.report().statusword.state() == cia402::State::OperationEnabled;
+  if (obeys) stage_.controlword().send(drive_.stop_word(), now);
+}
+
+/// Without target positions the drive goes on along its polynomial for a few periods, then brakes.
+HostDuration SetpointPlayer::longest_motion(HostTime) const {
+  const auto& limits = drive_.parameters().limits;
+  return kRideThrough * drive_.parameters().sync_period +
+         host_duration(limits.max_velocity / limits.max_acceleration);
+}
+
+/// One target position for each SYNC, right behind the SYNC before it.
+void SetpointPlayer::send_target() {
+  canopen::Master& master = drive_.master();
+  if (!stage_.wants_targets() || master.pending_control() > kJammed) return;
+  const auto target = drive_.setpoints().next(master.next_sync_due());
+  if (!target) return;
+  std::uint8_t data[4];
+  canopen::put_le(data, *target);
+  const bool taken = drive_.node().send_rpdo(cyclic_pdo::kTargetRpdo, data, sizeof(data));
+  ++(taken ? sent_ : refused_);
+}
+
+// ---- a goal's way
+
+encoding::SetpointEncoding SetpointPlayer::encoding() const {
+  const CyclicAxisParameters& parameters = drive_.parameters();
+  encoding::SetpointEncoding encoding;
+  encoding.joint = parameters.joint;
+  encoding.transmission = parameters.transmission;
+  encoding.period = GoalTime{seconds(parameters.sync_period)};
+  encoding.order = parameters.interpolation_order;
+  encoding.servo_period = GoalTime{parameters.servo_period};
+  encoding.bound_counts = parameters.deviation_bound;
+  return encoding;
+}
+
+std::optional<Refusal> SetpointPlayer::plan(const trajectory::Path& path, GoalTime) {
+  const auto certificate = encoding::certify_setpoints(path, encoding());
+  if (!certificate) return certificate.error();
+  planned_ = path;
+  planned_origin_.reset();
+  return std::nullopt;
+}
+
+GoalTime SetpointPlayer::start_lead() const {
+  return GoalTime{(kLatency + 1) * seconds(drive_.parameters().sync_period)} + kHostMargin;
+}
+
+void SetpointPlayer::load(HostTime now) {
+  path_ = planned_;
+  stream_origin_ = planned_origin_;
+  begin_ = kNever;
+  finished_ = false;
+  sent_at_load_ = sent_;
+  missed_at_load_ = drive_.setpoints().missed();
+  enter(Phase::Loading, now);
+}
+
+// What has been sent for instants after the begin was rest, and cannot be taken back.
+void SetpointPlayer::arm(HostTime begin, HostTime now) {
+  if (phase_ != Phase::Loaded) return;
+  if (begin < drive_.setpoints().newest()) {
+    return stage_.fail(
+        fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s "
+                    "before: the host has stalled",
+                    seconds(begin - now), start_lead().count()),
+        now);
+  }
+  begin_ = begin;
+  if (stream_origin_) path_ = trajectory::shifted(path_, GoalTime{seconds(begin - *stream_origin_)});
+  drive_.setpoints().follow(path_, begin);
+  enter(Phase::Moving, now);
+}
+
+void SetpointPlayer::poll_moving(HostTime now) {
+  const cia402::Statusword statusword = drive_.report().statusword;
+  const HostTime known = drive_.feedback().time;
+  if (!statusword.follows_command()) {
+    return stage_.fail(
+        fmt::format("the drive no longer follows its target positions (bit 12); statusword: {}",
+                    statusword.text()),
+        now);
+  }
+  if (stage_.time().silence(now, known) > drive_.parameters().feedback_timeout) {
+    return stage_.fail(fmt::format("no position has come from the drive for {:.2f} s", seconds(now - known)),
+                       now);
+  }
+  if (!drive_.setpoints().played(now)) return;
+  finished_ = true;
+  come_to_rest(now);
+}
+
+void SetpointPlayer::stop(HostTime now) {
+  switch (phase_) {
+    case Phase::Loading:
+    case Phase::Loaded:
+      return enter(Phase::Ready, now);
+    case Phase::Moving:
+      drive_.setpoints().brake(drive_.parameters().limits);
+      return enter(Phase::Braking, now);
+    default:
+      return;
+  }
+}
+
+void SetpointPlayer::come_to_rest(HostTime now) {
+  rest_counts_ = drive_.setpoints().newest_counts();
+  drive_.setpoints().rest(rest_counts_);
+  enter(Phase::Ready, now);
+}
+
+// ---- a path that is still being made
+
+std::optional<Refusal> SetpointPlayer::plan_stream(HostTime origin, GoalTime rest) {
+  planned_ = trajectory::with_rest(trajectory::Path(rest_position()), rest);
+  planned_origin_ = origin;
+  return std::nullopt;
+}
+
+GoalTime SetpointPlayer::stream_lead() const {
+  return GoalTime{(kLatency + 1) * seconds(drive_.parameters().sync_period)};
+}
+
+HostTime SetpointPlayer::committed() const {
+  return phase_ == Phase::Moving && stream_origin_ ? drive_.setpoints().newest() : kNever;
+}
+
+std::optional<Refusal> SetpointPlayer::plan_follow(const trajectory::Path& path) {
+  planned_ = path;
+  return std::nullopt;
+}
+
+void SetpointPlayer::follow() {
+  path_ = planned_;
+  begin_ = *stream_origin_ + host_duration(path_.start_time().count());
+  drive_.setpoints().follow(path_, begin_);
+}
+
+// ---- results
+
+HostTime SetpointPlayer::path_begin() const {
+  return begin_ == kNever ? kNever : begin_ + host_duration(drive_.master().sync_timing().delay());
+}
+
+GoalTime SetpointPlayer::playback(HostTime when) const {
+  if (begin_ == kNever) return path_.start_time() - start_lead();
+  return goal_time_at(seconds(when - path_begin()));
+}
+
+double SetpointPlayer::rest_position() const {
+  const std::int32_t counts = stage_.enabled() ? rest_counts_ : drive_.report().position;
+  return drive_.parameters().transmission.joint_position(counts);
+}
+
+void SetpointPlayer::motion_status(HostTime now, AxisStatus& out) const {
+  const auto& transmission = drive_.parameters().transmission;
+  const SetpointStream& setpoints = drive_.setpoints();
+  const HostDuration ahead = setpoints.newest() - now;
+  const bool streams = stage_.wants_targets() && ahead > 0ns;
+  out.demand_position = transmission.joint_position(drive_.report().position_demand);
+  out.following_error = drive_.report().following_error / transmission.counts_per_radian();
+  out.capacity = 1;
+  out.fill = streams ? 1 : 0;
+  out.fill_time = streams ? seconds(ahead) : 0.0;
+  out.underflow_warning = out.overflow_warning = false;
+  out.velocity_warning = out.acceleration_warning = false;
+  out.underruns = static_cast<std::uint32_t>(setpoints.missed());
+  out.overflows = 0;
+  out.refused_writes = static_cast<std::uint32_t>(refused_);
+  out.records_sent = sent_;
+  out.clock_error_ppm = 0.0;
+}
+
+AxisReport SetpointPlayer::report() const {
+  const auto missed = static_cast<std::uint32_t>(drive_.setpoints().missed() - missed_at_load_);
+  return {sent_ - sent_at_load_, missed == 0 ? 1U : 0U, missed};
+}
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,78 @@
+#include "interpolated_motion_driver/axis/epos/pvt_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "interpolated_motion_driver/trajectory/stream_path.h"
+
+namespace interpolated_motion::axis {
+
+namespace {
+
+/// Longest record of a stream, ms: a record is committed as a whole.
+constexpr std::int64_t kLongestRecord = 25;
+
+encoding::PvtEncoding goal_encoding(const EposDevice& drive) {
+  const EposAxisParameters& parameters = drive.parameters();
+  const EposFacts& facts = drive.facts();
+  encoding::PvtEncoding encoding;
+  encoding.joint = parameters.joint;
+  encoding.transmission = parameters.transmission;
+  encoding.velocity_unit_rpm = facts.velocity_unit_rpm();
+  encoding.bound_counts = parameters.deviation_bound;
+  encoding.max_motor_rpm = facts.max_velocity * facts.velocity_unit_rpm();
+  encoding.max_motor_acceleration = facts.max_acceleration;
+  return encoding;
+}
+
+encoding::PvtEncoding stream_encoding(const EposDevice& drive) {
+  encoding::PvtEncoding encoding = goal_encoding(drive);
+  encoding.max_record_ms = kLongestRecord;
+  return encoding;
+}
+
+}  // namespace
+
+Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajectory::Path& path, GoalTime wait,
+                                         std::int32_t rest_counts) {
+  auto stream = encoding::encode_pvt(path, goal_encoding(drive), rest_counts);
+  if (!stream) return stream.error();
+  PvtPlan plan;
+  plan.wait = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
+  plan.feed.load(stream.value(), {drive.facts().capacity, drive.parameters().commit_horizon});
+  plan.start = path.start_time();
+  return plan;
+}
+
+Expected<PvtPlan, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime origin, GoalTime rest,
+                                             std::int32_t rest_counts) {
+  const double position = drive.parameters().transmission.joint_position(rest_counts);
+  const trajectory::Path standing = trajectory::with_rest(trajectory::Path(position), rest);
+  const auto stream = encoding::encode_pvt(standing, stream_encoding(drive), rest_counts);
+  if (!stream) return stream.error();
+  PvtPlan plan;
+  plan.feed.load(stream.value(), {drive.facts().capacity, drive.parameters().stream_horizon});
+  plan.origin = origin;
+  return plan;
+}
+
+Expected<encoding::PvtStream, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
+                                                       const encoding::PvtKnot& knot) {
+  const encoding::PvtKnot from{0, knot.position, knot.velocity};
+  encoding::PvtEncoding encoding = stream_encoding(drive);
+  auto stream = encoding::encode_pvt(rest, encoding, from);
+  while (!stream && 2.0 * encoding.bound_counts <= drive.parameters().stream_deviation_bound) {
+    encoding.bound_counts *= 2.0;
+    stream = encoding::encode_pvt(rest, encoding, from);
+  }
+  return stream;
+}
+
+GoalTime pvt_stream_lead(const EposAxisParameters& parameters) {
+  constexpr double kRecord = 1e-3 * kLongestRecord;
+  const double kept = std::max(parameters.stream_horizon, RecordFeed::kLeastAhead * kRecord);
+  return GoalTime{kept + kRecord};
+}
+
+}  // namespace interpolated_motion::axis

@@ -1,0 +1,72 @@
+#include "interpolated_motion_driver/axis/silverlode/ims_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace interpolated_motion::axis {
+
+namespace {
+
+/// Longest segment of a stream, as multiple of the shortest one: a segment is committed as a whole.
+constexpr std::int64_t kLongest = 2;
+
+// A segment must be there when the one before it has been executed.
+std::vector<RecordSlot> slots_of(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                                 const encoding::ImsStream& stream, GoalTime start) {
+  std::vector<double> begins{0.0};
+  for (const ImsSegment& segment : stream.segments)
+    begins.push_back(begins.back() + segment.time * parameters.scale.tick);
+  std::vector<RecordSlot> slots = delivery.slots(begins, parameters.commit_horizon);
+  for (RecordSlot& slot : slots) {
+    slot.release += start;
+    slot.deadline += start;
+  }
+  return slots;
+}
+
+}  // namespace
+
+encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& parameters,
+                                        const SegmentDelivery& delivery) {
+  encoding::ImsEncoding encoding;
+  encoding.joint = parameters.joint;
+  encoding.transmission = parameters.transmission;
+  encoding.scale = parameters.scale;
+  encoding.bound_counts = parameters.deviation_bound;
+  encoding.max_motor_rpm = parameters.scale.velocity_full_scale_rpm;
+  encoding.max_motor_acceleration =
+      parameters.limit_margin *
+      std::abs(parameters.transmission.motor_rpm(parameters.limits.max_acceleration));
+  const auto shortest =
+      static_cast<std::int64_t>(std::ceil(delivery.shortest_segment() / parameters.scale.tick));
+  encoding.min_segment_ticks = std::max(encoding.min_segment_ticks, shortest);
+  return encoding;
+}
+
+encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parameters,
+                                          const SegmentDelivery& delivery,
+                                          const silverlode::LineMaster& line) {
+  encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery);
+  const double round = static_cast<double>(line.device_count()) * delivery.record_bus_time();
+  const auto shortest = static_cast<std::int64_t>(std::ceil(round / parameters.scale.tick));
+  encoding.min_segment_ticks = std::max(encoding.min_segment_ticks, shortest);
+  encoding.max_segment_ticks = kLongest * encoding.min_segment_ticks;
+  return encoding;
+}
+
+Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& parameters,
+                                         const SegmentDelivery& delivery, const trajectory::Path& path,
+                                         std::int32_t rest_counts) {
+  const auto stream = encoding::encode_ims(path, ims_goal_encoding(parameters, delivery), rest_counts);
+  if (!stream) return stream.error();
+  return ImsPlan{path, slots_of(parameters, delivery, stream.value(), path.start_time()), std::nullopt};
+}
+
+GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                         const silverlode::LineMaster& line) {
+  const auto ticks = ims_stream_encoding(parameters, delivery, line).max_segment_ticks;
+  const double longest = parameters.scale.tick * static_cast<double>(ticks);
+  return GoalTime{std::max(parameters.stream_horizon, kLeastAhead * longest) + longest};
+}
+
+}  // namespace interpolated_motion::axis
