@@ -6,7 +6,7 @@
 
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
-#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
-#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis::sdo_steps {
 

@@ -6,7 +6,7 @@
 
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
-#include "interpolated_motion_driver/protocol/cia402/cyclic_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis {
 

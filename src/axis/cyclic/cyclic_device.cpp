@@ -7,8 +7,8 @@
 
 #include "interpolated_motion_driver/axis/cyclic/bring_up.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
-#include "interpolated_motion_driver/protocol/cia402/cyclic_objects.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis {
 

@@ -12,6 +12,7 @@
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
 #include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis {
 

@@ -4,6 +4,7 @@
 
 #include "interpolated_motion_driver/protocol/canopen/object.h"
 #include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 
 namespace interpolated_motion::axis {
 

@@ -6,8 +6,10 @@
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
 #include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/identity.h"
 #include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
+#include "interpolated_motion_driver/protocol/cia402/objects.h"
 #include "interpolated_motion_driver/protocol/cia402/statusword.h"
 #include "protocol/property_cases.h"
 
@@ -256,13 +258,22 @@ TEST(EposObjects, MappingEntries) {
 }
 
 TEST(EposObjects, NamesAreFoundForListedObjectsOnly) {
+  EXPECT_STREQ(epos_object_name({0x1000, 0}), "Device Type");
+  EXPECT_STREQ(epos_object_name({0x20C4, 1}), "Interpolation Buffer Status");
+  EXPECT_STREQ(epos_object_name({0x60C4, 4}), "Buffer Position");
+  EXPECT_STREQ(epos_object_name({0x607D, 2}), "Max Position Limit");
+  EXPECT_STREQ(epos_object_name({0x6502, 0}), "Supported Drive Modes");
+  EXPECT_STREQ(epos_object_name({0x60C1, 1}), "");
+  EXPECT_STREQ(epos_object_name({0x6064, 1}), "");
+}
+
+TEST(Objects, NamesAreThoseOfCiaOnly) {
   EXPECT_STREQ(object_name({0x1000, 0}), "Device Type");
-  EXPECT_STREQ(object_name({0x20C4, 1}), "Interpolation Buffer Status");
-  EXPECT_STREQ(object_name({0x60C4, 4}), "Buffer Position");
-  EXPECT_STREQ(object_name({0x607D, 2}), "Max Position Limit");
+  EXPECT_STREQ(object_name({0x1006, 0}), "Communication Cycle Period");
+  EXPECT_STREQ(object_name({0x60C5, 0}), "Max Acceleration");
+  EXPECT_STREQ(object_name({0x60F4, 0}), "Following Error Actual Value");
   EXPECT_STREQ(object_name({0x6502, 0}), "Supported Drive Modes");
-  EXPECT_STREQ(object_name({0x60C1, 1}), "");
-  EXPECT_STREQ(object_name({0x6064, 1}), "");
+  EXPECT_STREQ(object_name({0x20C4, 1}), "");
 }
 
 TEST(EposObjects, IdentityText) {

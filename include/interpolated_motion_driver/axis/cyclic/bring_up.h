@@ -5,7 +5,7 @@
 
 #include "interpolated_motion_driver/axis/cia402/sdo_sequence.h"
 #include "interpolated_motion_driver/axis/cyclic/cyclic_parameters.h"
-#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/identity.h"
 
 namespace interpolated_motion::axis {
 

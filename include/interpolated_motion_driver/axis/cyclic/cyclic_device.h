@@ -9,7 +9,7 @@
 #include "interpolated_motion_driver/axis/cyclic/setpoint_stream.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
-#include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
+#include "interpolated_motion_driver/protocol/cia402/identity.h"
 
 namespace interpolated_motion::axis {
 
