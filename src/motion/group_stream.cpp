@@ -7,7 +7,8 @@ namespace interpolated_motion::motion {
 
 namespace {
 
-/// Rest at the begin of a stream, for the host to join the drives to it.
+/// How long the drives rest at the begin of a stream: by then the host knows when they have begun, and sends
+/// the first path.
 constexpr GoalTime kTimeToJoin{1.0};
 
 }  // namespace

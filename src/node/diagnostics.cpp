@@ -28,7 +28,7 @@ void summarize_drive(const motion::JointSnapshot& joint, DiagnosticStatus& statu
   }
 }
 
-/// Late enough to matter: half as long again, and not what a scheduler does.
+/// Whether replies take half as long again as planned; a millisecond of it may be the host's scheduler.
 bool is_late(const motion::ReplyDelay& delay) { return delay.mean > 1.5 * delay.planned + 0.001; }
 
 void summarize_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {

@@ -48,7 +48,8 @@ Expected<Path, LimitViolation> tail(const State& at, GoalTime start, const Strea
   return shortest;
 }
 
-/// By way of the stream's own place at `reach`.
+/// The path that meets the stream, and its velocity, at `reach`: later than the setpoint if that is after
+/// `target.time`.
 Expected<Path, LimitViolation> reach_at(const State& from, GoalTime start, GoalTime reach,
                                         const StreamTarget& target, const StreamRules& rules) {
   const double position = target.position + target.velocity * (reach - target.time).count();

@@ -174,8 +174,6 @@ void SerialPortLine::Implementation::async_wait(Descriptor::wait_type what, Wait
   }
 }
 
-// ---- the interface
-
 SerialPortLine::SerialPortLine(boost::asio::io_context& io, SerialPortParameters parameters, HostTime now) {
   validate(parameters);
   implementation_ = std::make_unique<Implementation>(io, std::move(parameters));

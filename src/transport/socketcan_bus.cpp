@@ -81,8 +81,6 @@ class SocketcanBus::Implementation {
   std::uint32_t overflow_seen_ = 0;
 };
 
-// ---- the interface's state
-
 void SocketcanBus::Implementation::refresh() {
   interface = read_can_interface(parameters.interface);
   if (!interface) return leave(SocketcanState::Missing, missing_text(parameters.interface));
@@ -136,8 +134,6 @@ void SocketcanBus::Implementation::leave(SocketcanState next, std::string text) 
   }
   enter(next, std::move(text));
 }
-
-// ---- frames
 
 bool SocketcanBus::Implementation::hears(const canopen::Frame& frame) const {
   if (filters_.empty()) return true;
@@ -245,8 +241,6 @@ void SocketcanBus::Implementation::async_wait(boost::asio::posix::stream_descrip
     boost::asio::post(io, [handler = std::move(handler)] { handler(boost::asio::error::not_connected); });
   }
 }
-
-// ---- the interface
 
 SocketcanBus::SocketcanBus(boost::asio::io_context& io, SocketcanParameters parameters, HostTime now) {
   validate(parameters);

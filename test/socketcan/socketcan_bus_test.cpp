@@ -73,8 +73,6 @@ struct SocketcanBusTest : testing::Test {
   }
 };
 
-// ---- frames
-
 TEST_F(SocketcanBusTest, AFrameCountsAsSentWhenItComesBackFromTheBus) {
   SocketcanBus bus(io, parameters(), read_host_clock());
   RawCan other(vcan.name());
@@ -143,8 +141,6 @@ TEST_F(SocketcanBusTest, ClassicFramesTravelOverAnInterfaceThatHasFdFramesToo) {
   EXPECT_EQ(number_of(*other.receive()), 2U);
 }
 
-// ---- filters
-
 TEST_F(SocketcanBusTest, OnlyFramesOfTheNodesInUseArrive) {
   SocketcanParameters p = parameters();
   p.node_ids = {1, 127};
@@ -172,8 +168,6 @@ TEST_F(SocketcanBusTest, FramesThatTheFilterHidesDoNotCountAsOnTheirWay) {
   SocketcanBus bus(io, p, read_host_clock());
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(bus.send(frame(0x202), read_host_clock())) << i;
 }
-
-// ---- queues
 
 TEST_F(SocketcanBusTest, NoMoreThanTheLimitIsOnItsWay) {
   SocketcanParameters p = parameters();
@@ -258,8 +252,6 @@ TEST_F(SocketcanBusTest, AQueueFullOfOthersFramesIsTriedAgainByTheClock) {
   EXPECT_TRUE(bus.send(frame(0x201), read_host_clock()));
 }
 
-// ---- overload of the receiver
-
 std::uint32_t flood(RawCan& other, std::uint32_t count) {
   std::uint32_t sent = 0;
   for (std::uint32_t i = 0; i < count; ++i) sent += other.send(0x181, i) ? 1U : 0U;
@@ -307,8 +299,6 @@ TEST_F(SocketcanBusTest, LostConfirmationsDoNotHoldUpSending) {
   EXPECT_TRUE(bus.send(frame(0x201, 3), read_host_clock()));
   EXPECT_EQ(bus.counters().unconfirmed, 3U);
 }
-
-// ---- the interface comes and goes
 
 TEST_F(SocketcanBusTest, DownAndUpAgain) {
   SocketcanBus bus(io, parameters(), read_host_clock());

@@ -14,6 +14,7 @@ inline constexpr std::int32_t kMaxRecordVelocity =
     8388607;                                         ///< velocity units, signed 24 bit, used symmetrically
 inline constexpr std::int64_t kMaxRecordTime = 255;  ///< ms; 1 is the least, as 0 ends the mode
 
+/// Whether `counts`, or a velocity in the drive's `units`, has room in its field; false for a NaN.
 inline bool fits_record_position(double counts) {
   return counts >= kMinRecordPosition && counts <= kMaxRecordPosition;
 }

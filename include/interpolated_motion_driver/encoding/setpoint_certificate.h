@@ -26,10 +26,10 @@ struct SetpointEncoding {
 /// What the drive will make of a path.
 struct SetpointCertificate {
   double worst_deviation = 0.0;  ///< counts, at the drive's samples
-  GoalTime worst_time{0.0};
+  GoalTime worst_time{0.0};      ///< when it occurs, in the path's time
 };
 
-/// The target position, counts, for goal time `time`.
+/// The target position, counts, for goal time `time`: rounded, and cut off at the ends of 32 bits.
 std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& transmission, GoalTime time);
 
 /// Executes the target positions of `path` as the drive will, from a rest of several periods before the path
@@ -40,6 +40,7 @@ std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& trans
 Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
                                                          const SetpointEncoding& encoding);
 
+/// Positions of the target instants within the path that certify_setpoints() tries.
 inline constexpr int kSetpointPhases = 4;
 
 }  // namespace interpolated_motion::encoding

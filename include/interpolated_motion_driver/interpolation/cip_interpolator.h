@@ -54,8 +54,8 @@ enum class CipPush {
 
 /// Step a command made in the output when it came into effect late: new minus old, before blending.
 struct CipStep {
-  double value = 0.0;
-  double first_derivative = 0.0;
+  double value = 0.0;             ///< in the unit of the commands
+  double first_derivative = 0.0;  ///< per s
 };
 
 /// Fine interpolation of a stream of time-stamped commands ("Behavior models used in CIP Motion", Fine
@@ -86,6 +86,7 @@ class CipInterpolator {
   /// Output at `now`.
   CipSample sample(HostTime now);
 
+  /// What becomes of the output at `now`. A stop that is due then begins.
   CipState state(HostTime now);
 
   /// By how much `now` lies beyond the newest command; 0 while it does not, and before the first.

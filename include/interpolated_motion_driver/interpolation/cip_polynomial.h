@@ -11,8 +11,8 @@ inline constexpr std::size_t kCipHistory = kCipHighestOrder + 1;
 
 /// A command and the time at which it is to be reached, s, on an axis of the caller's choice.
 struct CipKnot {
-  double time = 0.0;
-  double value = 0.0;
+  double time = 0.0;   ///< s
+  double value = 0.0;  ///< in the unit of the commands
 };
 
 /// Command values, the newest first: P0, P-1, P-2, P-3.
@@ -29,8 +29,9 @@ using CipKnots = std::array<CipKnot, kCipHistory>;
 /// many older ones as its order takes. Beyond t1 the same polynomial extrapolates. Pure numbers: values in
 /// the unit of the commands, times in s.
 struct CipPolynomial {
-  std::array<double, kCipHistory> a{};
+  std::array<double, kCipHistory> a{};  ///< a0..a3, in the unit of the commands / s^i
 
+  /// At `tau` s after t0: value, rate of change per s, and its rate per s^2. Any tau, beyond T too.
   double value(double tau) const { return a[0] + tau * (a[1] + tau * (a[2] + tau * a[3])); }
   double first_derivative(double tau) const { return a[1] + tau * (2 * a[2] + tau * 3 * a[3]); }
   double second_derivative(double tau) const { return 2 * a[2] + tau * 6 * a[3]; }

@@ -18,8 +18,9 @@ using SystemTime = CipSystemClock::time_point;
 
 /// System Time Offset: how far System Time is ahead of the local clock.
 struct SystemTimeOffset {
-  HostDuration value{};
+  HostDuration value{};  ///< positive when System Time is ahead
 
+  /// The same instant on the other clock. No check of overflow.
   constexpr SystemTime system(HostTime local) const { return SystemTime(local.time_since_epoch() + value); }
   constexpr HostTime local(SystemTime system) const { return HostTime(system.time_since_epoch() - value); }
 };

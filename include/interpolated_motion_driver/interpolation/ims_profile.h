@@ -11,7 +11,7 @@ namespace interpolated_motion::interpolation {
 /// integers whatever the encoder; one factor makes counts of the sum. At 4000 counts per revolution a count
 /// is 2^26 units.
 struct ImsScale {
-  double counts_per_revolution = 4000.0;
+  double counts_per_revolution = 4000.0;    ///< of the encoder on the motor, > 0
   double velocity_full_scale_rpm = 4000.0;  ///< velocity of 2^31
   /// Acceleration of 2^31, rpm per tick. The document says 2000 and its worked example closes only with it;
   /// the drive's other commands use 4000. The velocity's full scale must be a whole multiple of it.
@@ -23,8 +23,8 @@ struct ImsScale {
   double position_lag = 0.5;
 
   double counts_per_unit() const;  ///< counts that a velocity of one unit moves in a tick
-  double units_per_count() const { return 1.0 / counts_per_unit(); }
-  double units_per_rpm() const;
+  double units_per_count() const { return 1.0 / counts_per_unit(); }  ///< of the sum that are one count
+  double units_per_rpm() const;  ///< of the velocity that are 1 rpm of the motor
   /// Value of a segment's acceleration that changes the velocity by one unit in a tick; 2 at the default
   /// scales. The law drops the fraction of an acceleration that is not a multiple of it.
   std::int64_t acceleration_per_step() const;
@@ -80,6 +80,7 @@ std::int64_t greatest_landing_velocity(std::int64_t distance, std::int64_t step)
 /// in 32 bits.
 class ImsProfile {
  public:
+  /// Stands at `state`; load() a segment before tick(). `scale` must be valid.
   ImsProfile(const ImsScale& scale, const ImsState& state);
 
   /// Begins a segment where the state stands.
@@ -88,6 +89,7 @@ class ImsProfile {
   /// One servo tick.
   void tick();
 
+  /// After the latest tick.
   const ImsState& state() const { return state_; }
 
   /// Whether `ticks` of the segment loaded pass without braking for its position, so that ramp_and_hold()

@@ -42,24 +42,35 @@ class Group {
   Group(GroupParameters parameters, std::vector<axis::Axis*> axes, std::vector<axis::StartSignal*> signals,
         HostTime now);
 
+  /// Polls all axes, then does what the state demands. `now` never runs backwards.
   void poll(HostTime now);
+  /// When poll() must be called next; kNever when only something received can change anything.
   HostTime next_deadline() const;
+  /// As of the latest poll() or call that changes it.
   GroupState state() const { return state_; }
   /// Why the group is in Fault; empty otherwise.
   const std::string& fault() const { return fault_; }
 
-  /// See hardware::MotionHardware for the meaning of all of these.
+  /// Takes a goal, or says why not. One that is under way is stopped first, and ends as Preempted.
   Expected<GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
+  /// Stops the goal if it is still under way; it ends as Preempted. Nothing happens for any other id.
   void cancel(GoalId goal, HostTime now);
+  /// The next goal that has ended, oldest first.
   std::optional<GoalResult> take_goal_result();
 
+  /// Takes a setpoint that has come at `now`, or says why not; the arm then goes on as it did.
   std::optional<Refusal> setpoint(const Setpoint& setpoint, HostTime now);
 
+  /// Begins what is asked for. Each request ends with one result, at once or when the group is there.
   RequestId request(RequestKind kind, HostTime now);
   std::optional<RequestResult> take_request_result() { return requests_.take_result(); }
 
+  /// Fills in what the group knows; buses are left alone. `out` is reused to avoid allocation.
   void snapshot(HostTime now, Snapshot& out) const;
+  /// Figures of the last goal or stream that moved; those of emulated drives' samples are 0.
   MotionReport report() const;
+  /// The committed trajectory at `time`, a state per joint. False, and `out` as it was, when `time` is before
+  /// the start of the trajectory in force.
   bool query(HostTime time, std::vector<trajectory::State>& out) const;
   /// The goal in force, whose paths the drives are playing or have played last. Null before the first goal
   /// has been loaded.

@@ -15,11 +15,13 @@ enum class RequestKind { Enable, Disable, ShutDown, ResetFaults, Halt, ClearBuff
 /// Requests that wait until the group has reached the state they ask for.
 class Requests {
  public:
+  /// A new request, to be ended by finish() or settle(). Ids ascend from 1.
   RequestId add(RequestKind kind);
   /// Ends `id` at once.
   void finish(RequestId id, bool success, std::string message);
   /// Ends every request whose outcome `state` decides. `fault` is the reason of a Fault.
   void settle(GroupState state, const std::string& fault);
+  /// The result of a request that has ended, oldest first.
   std::optional<RequestResult> take_result();
 
  private:

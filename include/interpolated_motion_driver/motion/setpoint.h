@@ -35,8 +35,8 @@ struct StreamParameters {
 
 /// What has come of setpoints since the driver was started.
 struct StreamCounters {
-  std::uint64_t accepted = 0;
-  std::uint64_t refused = 0;
+  std::uint64_t accepted = 0;  ///< also those passed over for a newer one before the drives had begun
+  std::uint64_t refused = 0;   ///< some only when the drives had begun and it could not be reached
 };
 
 }  // namespace interpolated_motion::motion

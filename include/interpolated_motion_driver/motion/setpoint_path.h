@@ -21,6 +21,7 @@ namespace interpolated_motion::motion {
 /// always a stop and a rest behind the newest. Goal time 0 is the begin of the stream.
 class SetpointPath {
  public:
+  /// No stream yet: begin() one.
   SetpointPath(trajectory::GoalRules rules, const StreamParameters& parameters);
 
   /// A new stream at `now`, from rest at `positions`, of drives that must know what to do `lead` ahead.
@@ -40,6 +41,7 @@ class SetpointPath {
   /// Does not aim at `setpoint`, since a newer one has come before the drives have begun.
   void pass_over(const Setpoint& setpoint);
 
+  /// One path per joint, in the order of the rules; none before the first stream.
   const std::vector<trajectory::Path>& paths() const { return paths_; }
   /// Counts the changes of paths().
   std::uint64_t revision() const { return revision_; }

@@ -37,11 +37,11 @@ struct JointSnapshot {
   bool overflow_warning = false;
   bool velocity_warning = false;
   bool acceleration_warning = false;
-  std::uint32_t underruns = 0;  ///< since start of the driver
-  std::uint32_t overflows = 0;
+  std::uint32_t underruns = 0;       ///< since start of the driver
+  std::uint32_t overflows = 0;       ///< since start of the driver
   std::uint32_t refused_writes = 0;  ///< records the drive did not take
-  std::uint64_t records_sent = 0;
-  double clock_error_ppm = 0.0;  ///< estimated error of the drive's clock against the host's
+  std::uint64_t records_sent = 0;    ///< since start of the driver
+  double clock_error_ppm = 0.0;      ///< estimated error of the drive's clock against the host's
 };
 
 /// From a request on a serial line to its reply, s.
@@ -52,14 +52,14 @@ struct ReplyDelay {
 
 struct BusSnapshot {
   std::string name;
-  double load = 0.0;  ///< 0..1, over the last second
-  std::uint64_t frames_sent = 0;
-  std::uint64_t frames_received = 0;
-  std::uint64_t unexpected = 0;     ///< frames nobody was waiting for
-  bool usable = true;               ///< frames can travel: the interface is up, the port is open
-  std::string state;                ///< of interface or port, in one sentence with what to do
-  std::uint64_t error_frames = 0;   ///< reports of the CAN controller about a disturbed bus
-  std::uint64_t lost_frames = 0;    ///< frames the kernel had no room for, and frames never seen on the bus
+  double load = 0.0;                  ///< 0..1, over the last second
+  std::uint64_t frames_sent = 0;      ///< frames of this host; on a serial line, requests
+  std::uint64_t frames_received = 0;  ///< frames of others; on a serial line, replies
+  std::uint64_t unexpected = 0;       ///< frames nobody was waiting for
+  bool usable = true;                 ///< frames can travel: the interface is up, the port is open
+  std::string state;                  ///< of interface or port, in one sentence with what to do
+  std::uint64_t error_frames = 0;     ///< reports of the CAN controller about a disturbed bus
+  std::uint64_t lost_frames = 0;      ///< frames the kernel had no room for, and frames never seen on the bus
   double sync_delay = 0.0;          ///< s, from the instant periodic SYNC is due to its end on the bus, mean
   double sync_jitter = 0.0;         ///< s, largest deviation from that in the last seconds
   std::uint64_t syncs_skipped = 0;  ///< not sent, since the host was too late
@@ -79,16 +79,17 @@ enum class GroupState {
   Fault,  ///< a drive is in fault or lost; ~reset_faults, then ~enable
 };
 
+/// The name in lower case, such as "preparing".
 const char* to_string(GroupState state);
 
 /// One consistent view of the whole driver.
 struct Snapshot {
-  HostTime time{};
+  HostTime time{};  ///< at which all this was so
   GroupState state = GroupState::Starting;
-  std::string fault;        ///< why the group is in Fault; empty otherwise
-  GoalId active_goal = 0;   ///< 0 when none
-  GoalTime goal_time{0.0};  ///< of the active goal, on the play-back clock; time_from_start of `desired`
-  GoalTime goal_duration{0.0};
+  std::string fault;            ///< why the group is in Fault; empty otherwise
+  GoalId active_goal = 0;       ///< 0 when none
+  GoalTime goal_time{0.0};      ///< of the active goal, on the play-back clock; time_from_start of `desired`
+  GoalTime goal_duration{0.0};  ///< of the active goal, without its lead-in
   StreamCounters setpoints;
   std::vector<JointSnapshot> joints;
   std::vector<BusSnapshot> buses;
@@ -98,9 +99,9 @@ struct Snapshot {
 struct JointReport {
   std::string joint;
   std::string bus;
-  std::uint64_t records_sent = 0;
-  std::uint32_t minimum_fill = 0;  ///< records, while interpolating and more were to come
-  std::uint32_t underruns = 0;
+  std::uint64_t records_sent = 0;    ///< for this goal
+  std::uint32_t minimum_fill = 0;    ///< records, while interpolating and more were to come
+  std::uint32_t underruns = 0;       ///< during this goal
   std::uint32_t refused_writes = 0;  ///< records the drive did not take at once
   std::uint64_t samples = 0;         ///< drive samples compared (0: the drive is not emulated)
   double worst_deviation =
@@ -111,7 +112,7 @@ struct JointReport {
 struct MotionReport {
   bool valid = false;  ///< false before the first goal has moved
   GoalId goal = 0;
-  GoalTime duration{0.0};
+  GoalTime duration{0.0};  ///< its lead-in included; 0 for a stream
   std::vector<JointReport> joints;
   std::vector<std::pair<std::string, double>> peak_bus_load;  ///< per bus: name, 0..1
 };

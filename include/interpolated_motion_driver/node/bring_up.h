@@ -9,6 +9,7 @@ namespace interpolated_motion::node {
 /// waited for the action can send at once.
 class BringUp {
  public:
+  /// `enable_on_start`: whether the bring-up is to end with the drives enabled.
   explicit BringUp(bool enable_on_start) : enable_on_start_(enable_on_start) {}
 
   /// Takes the present state. True from the end of the bring-up on.

@@ -16,6 +16,8 @@ namespace interpolated_motion::node {
 /// a goal of the action too; one without points stops; one that is refused is logged and changes nothing.
 class CommandTopic {
  public:
+  /// Subscribes below `node`; calls come from its callback queue. `joints`: all of them, in the driver's
+  /// order. `hardware` must live longer.
   CommandTopic(ros::NodeHandle node, HardwareThread& hardware, std::vector<std::string> joints);
 
  private:

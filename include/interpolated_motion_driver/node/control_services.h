@@ -16,7 +16,8 @@ namespace interpolated_motion::node {
 /// their own, and `~halt` by threads that serve nothing else.
 class ControlServices {
  public:
-  /// `~halt` is served by the queue of `halt_node`, the others by that of `node`.
+  /// Advertises below the name of `node`. `~halt` is served by the queue of `halt_node`, the others by that
+  /// of `node`; those who serve them must be free to wait. `hardware` must live longer.
   ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware);
 
  private:

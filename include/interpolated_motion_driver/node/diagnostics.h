@@ -31,6 +31,7 @@ class Diagnostics {
   Diagnostics(const ros::NodeHandle& node, const HardwareThread& hardware,
               const hardware::Configuration& configuration, const WireLog* wire_log);
 
+  /// Publishes all statuses from the latest snapshot; to be called about once a second.
   void publish();
 
  private:

@@ -12,6 +12,7 @@ namespace interpolated_motion::node {
 /// allow_fault_injection is set.
 class FaultInjection {
  public:
+  /// Advertises below `node`; calls come from its callback queue. `hardware` must live longer.
   FaultInjection(ros::NodeHandle node, HardwareThread& hardware);
 
  private:

@@ -27,6 +27,7 @@ motion::Setpoint to_setpoint(const trajectory_msgs::JointTrajectory& message, st
 /// A goal of the action, with its tolerances.
 trajectory::Goal to_goal(const control_msgs::FollowJointTrajectoryGoal& message);
 
+/// The action's result: error_code as control_msgs defines it, error_string in a sentence.
 control_msgs::FollowJointTrajectoryResult to_result(GoalError code, const std::string& text);
 control_msgs::FollowJointTrajectoryResult to_result(const motion::GoalResult& result);
 
@@ -38,6 +39,7 @@ void fill_state(const motion::Snapshot& snapshot, control_msgs::FollowJointTraje
 
 /// Joints whose drive does not answer are left out: their positions are not known.
 void fill_joint_state(const motion::Snapshot& snapshot, sensor_msgs::JointState& message);
+/// All joints in the driver's order, vectors of the message reused.
 void fill_buffer_status(const motion::Snapshot& snapshot, interpolated_motion_driver::BufferStatus& message);
 void fill_drive_states(const motion::Snapshot& snapshot, interpolated_motion_driver::DriveState& message);
 void fill_motion_report(const motion::MotionReport& report,

@@ -11,6 +11,7 @@ namespace interpolated_motion::node {
 /// divide each other fall on the same instants and cost the thread one wake-up.
 class PeriodicCalls {
  public:
+  /// Periods are counted from `origin`.
   explicit PeriodicCalls(HostTime origin) : origin_(origin) {}
 
   /// `rate`: Hz, above 0. First called one period after the origin.

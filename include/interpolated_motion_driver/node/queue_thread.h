@@ -24,6 +24,7 @@ class QueueThread {
   QueueThread(const QueueThread&) = delete;
   QueueThread& operator=(const QueueThread&) = delete;
 
+  /// Starts the thread; to be called once.
   void start();
   /// Ends the thread and waits for its end.
   void stop();

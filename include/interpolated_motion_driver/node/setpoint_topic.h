@@ -12,6 +12,7 @@ namespace interpolated_motion::node {
 /// 0 is the time of arrival. One publisher at a time. What is refused is logged, at most once a second.
 class SetpointTopic {
  public:
+  /// Subscribes below `node`; calls come from its callback queue. `hardware` must live longer.
   SetpointTopic(ros::NodeHandle node, HardwareThread& hardware);
 
  private:

@@ -13,8 +13,10 @@ namespace interpolated_motion::node {
 /// Publishes `~state` and `/joint_states`, once the drives have told where they are.
 class StatePublisher {
  public:
+  /// Advertises; `hardware` must live longer.
   StatePublisher(ros::NodeHandle node, const HardwareThread& hardware);
 
+  /// Publishes the latest snapshot, with its time as stamp; nothing while the drives are being looked for.
   void publish();
 
  private:

@@ -13,8 +13,10 @@ namespace interpolated_motion::node {
 /// Publishes `~buffer_status` and `~drive_states`, from the start of the node on.
 class StatusPublisher {
  public:
+  /// Advertises below `node`; `hardware` must live longer.
   StatusPublisher(ros::NodeHandle node, const HardwareThread& hardware);
 
+  /// Publishes the latest snapshot, with its time as stamp.
   void publish();
 
  private:

@@ -6,8 +6,8 @@ namespace interpolated_motion::trajectory {
 
 /// A value of a polynomial and the local time (s) at which it occurs.
 struct Extremum {
-  double time = 0.0;
-  double value = 0.0;
+  double time = 0.0;   ///< s since the start of the piece
+  double value = 0.0;  ///< rad or m, per s or per s^2, as the quantity is
 };
 
 /// Smallest and largest value over an interval; at equal values the earliest found.

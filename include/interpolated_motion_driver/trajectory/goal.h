@@ -12,20 +12,20 @@ namespace interpolated_motion::trajectory {
 /// One point of a goal, as in trajectory_msgs/JointTrajectoryPoint: values in the order of the goal's joint
 /// names. Empty vectors mean that the goal does not say.
 struct Waypoint {
-  GoalTime time{0.0};  ///< since the start of the trajectory
-  std::vector<double> positions;
-  std::vector<double> velocities;
-  std::vector<double> accelerations;
-  std::vector<double> efforts;
+  GoalTime time{0.0};                 ///< since the start of the trajectory
+  std::vector<double> positions;      ///< rad or m
+  std::vector<double> velocities;     ///< per s
+  std::vector<double> accelerations;  ///< per s^2
+  std::vector<double> efforts;        ///< only their number is checked, and that they are finite
 };
 
 /// As control_msgs/JointTolerance: a positive value sets the tolerance, 0 keeps the default, a negative one
 /// erases it.
 struct JointTolerance {
   std::string joint;
-  double position = 0.0;
-  double velocity = 0.0;
-  double acceleration = 0.0;
+  double position = 0.0;      ///< rad or m
+  double velocity = 0.0;      ///< per s
+  double acceleration = 0.0;  ///< per s^2
 };
 
 /// A FollowJointTrajectory goal, or a trajectory of the command topic, without ROS types.
@@ -41,10 +41,10 @@ struct Goal {
 
 /// Limits of a joint, in its own units (rad or m, per s, per s^2).
 struct JointLimits {
-  double min_position = -std::numeric_limits<double>::infinity();
-  double max_position = std::numeric_limits<double>::infinity();
-  double max_velocity = std::numeric_limits<double>::infinity();
-  double max_acceleration = std::numeric_limits<double>::infinity();
+  double min_position = -std::numeric_limits<double>::infinity();  ///< of a continuous joint without meaning
+  double max_position = std::numeric_limits<double>::infinity();   ///< of a continuous joint without meaning
+  double max_velocity = std::numeric_limits<double>::infinity();   ///< magnitude, > 0
+  double max_acceleration = std::numeric_limits<double>::infinity();  ///< magnitude, > 0
   bool continuous = false;  ///< the position wraps around at 2 pi (URDF type `continuous`)
 };
 

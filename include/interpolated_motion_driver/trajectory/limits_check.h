@@ -24,10 +24,10 @@ const char* name(Quantity quantity);
 /// Where a path leaves its limits: the extreme value of the first piece that does.
 struct LimitViolation {
   Quantity quantity = Quantity::Position;
-  GoalTime time{0.0};
-  double value = 0.0;  ///< rad or m, per s, per s^2
-  double minimum = 0.0;
-  double maximum = 0.0;
+  GoalTime time{0.0};    ///< of that value
+  double value = 0.0;    ///< rad or m, per s, per s^2
+  double minimum = 0.0;  ///< allowed, in the same unit; slack not included
+  double maximum = 0.0;  ///< allowed, in the same unit; slack not included
 };
 
 /// The first piece of `path` with a position, velocity or acceleration outside `limits`, in exact extrema,

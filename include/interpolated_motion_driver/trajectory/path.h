@@ -10,10 +10,11 @@ namespace interpolated_motion::trajectory {
 
 /// One polynomial of a path and the interval of goal time it is valid on.
 struct Piece {
-  GoalTime start{0.0};
-  GoalTime end{0.0};
+  GoalTime start{0.0};    ///< included
+  GoalTime end{0.0};      ///< not included, but for the last piece of a path
   Polynomial polynomial;  ///< in seconds since `start`
 
+  /// Above 0 in a path.
   GoalTime duration() const { return end - start; }
 };
 
@@ -28,8 +29,11 @@ class Path {
   /// than 0 s. Throws std::invalid_argument with piece and times otherwise.
   explicit Path(std::vector<Piece> pieces);
 
+  /// Whether the path rests at one position for ever.
   bool empty() const { return pieces_.empty(); }
+  /// Ascending in time, without gaps; none when empty.
   const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Ends of the motion; both 0 when empty.
   GoalTime start_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.front().start; }
   GoalTime end_time() const { return pieces_.empty() ? GoalTime{0.0} : pieces_.back().end; }
 

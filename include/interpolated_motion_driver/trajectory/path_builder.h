@@ -13,7 +13,7 @@ enum class KnotData { Position, Velocity, Acceleration };
 
 /// A point of one joint that its path goes through.
 struct Knot {
-  GoalTime time{0.0};
+  GoalTime time{0.0};                   ///< at which the path goes through it
   State state;                          ///< the members that `given` does not cover are ignored
   KnotData given = KnotData::Position;  ///< `Velocity`: position and velocity; `Acceleration`: all three
 };

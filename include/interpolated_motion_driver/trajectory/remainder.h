@@ -5,9 +5,10 @@
 
 namespace interpolated_motion::trajectory {
 
-/// What is left of `path` from goal time `from` on, told by another clock: that instant is 0 on it, and one
-/// of its seconds is `rate` > 0 seconds of goal time. A path of one position when it ends at or before
-/// `from`; `from` must not be before its start.
+/// The part of `path` from goal time `from` (not before its start) on, in a time of its own: 0 is that
+/// instant, and a second of it is `rate` > 0 seconds of goal time. So velocities are `rate`, accelerations
+/// `rate`^2 times those of `path`. When `path` ends at or before `from`: a path that rests at its final
+/// position.
 Path remainder(const Path& path, GoalTime from, double rate);
 
 }  // namespace interpolated_motion::trajectory

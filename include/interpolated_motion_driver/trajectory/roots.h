@@ -14,16 +14,19 @@ using Coefficients = std::array<double, Degree + 1>;
 /// Up to `Degree` roots in ascending order.
 template <std::size_t Degree>
 struct Roots {
-  std::array<double, Degree> values{};
-  std::size_t count = 0;
+  std::array<double, Degree> values{};  ///< only the first `count` are meant
+  std::size_t count = 0;                ///< 0..Degree
 
+  /// Appends `x`, not below those before; dropped when there are `Degree` already.
   void add(double x) {
     if (count < Degree) values[count++] = x;
   }
+  /// For a loop over the roots found.
   const double* begin() const { return values.data(); }
   const double* end() const { return values.data() + count; }
 };
 
+/// Value at `x`, by Horner's scheme.
 template <std::size_t Degree>
 double evaluate(const Coefficients<Degree>& c, double x) {
   double sum = c[Degree];
@@ -31,6 +34,7 @@ double evaluate(const Coefficients<Degree>& c, double x) {
   return sum;
 }
 
+/// Coefficients of the derivative with respect to x.
 template <std::size_t Degree>
 Coefficients<Degree - 1> derivative(const Coefficients<Degree>& c) {
   Coefficients<Degree - 1> result{};

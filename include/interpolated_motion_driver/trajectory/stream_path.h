@@ -18,9 +18,9 @@ struct StreamRules {
 
 /// A setpoint of one joint: `position` is passed at `time` with `velocity`.
 struct StreamTarget {
-  GoalTime time{0.0};
-  double position = 0.0;
-  double velocity = 0.0;
+  GoalTime time{0.0};     ///< at which it is to be passed
+  double position = 0.0;  ///< rad or m
+  double velocity = 0.0;  ///< per s, signed
 };
 
 /// The path from `from` at `start` through a setpoint, to go on with while no further one comes:

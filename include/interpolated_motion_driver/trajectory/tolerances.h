@@ -15,9 +15,9 @@ namespace interpolated_motion::trajectory {
 
 /// Largest error allowed in each quantity (rad or m, per s, per s^2); 0 does not check it.
 struct StateTolerance {
-  double position = 0.0;
-  double velocity = 0.0;
-  double acceleration = 0.0;
+  double position = 0.0;      ///< rad or m
+  double velocity = 0.0;      ///< per s
+  double acceleration = 0.0;  ///< per s^2
 };
 
 /// Tolerances of a goal while it runs: one entry per joint, in the order of the configuration.

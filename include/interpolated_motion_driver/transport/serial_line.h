@@ -11,7 +11,7 @@ namespace interpolated_motion::transport {
 /// A character received, and the time of its last bit.
 struct ReceivedCharacter {
   char value = 0;
-  HostTime time{};
+  HostTime time{};  ///< as well as the line can tell it
 };
 
 /// One serial line as the host sees it. Never blocks.

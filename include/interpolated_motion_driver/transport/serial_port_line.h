@@ -65,6 +65,7 @@ class SerialPortLine : public SerialLine {
   /// and has taken everything.
   HostTime next_deadline() const;
 
+  /// As of the latest call that has looked at the port.
   SerialPortState state() const;
   /// The state in one sentence, with what to do.
   const std::string& status_text() const;

@@ -49,9 +49,9 @@ struct SocketcanCounters {
   std::uint64_t receive_overflow = 0;  ///< frames the kernel had no room for
   std::uint64_t queue_full = 0;        ///< times the interface's queue was full (ENOBUFS)
   std::uint64_t socket_full = 0;       ///< times the socket's buffer was full (EAGAIN)
-  std::uint64_t error_frames = 0;
-  std::uint64_t bus_off = 0;   ///< times the controller went off the bus
-  std::uint64_t openings = 0;  ///< times the socket was opened: 1 + returns of the interface
+  std::uint64_t error_frames = 0;      ///< reports of the controller, see CanErrorReport
+  std::uint64_t bus_off = 0;           ///< times the controller went off the bus
+  std::uint64_t openings = 0;          ///< times the socket was opened: 1 + returns of the interface
 };
 
 /// A CAN bus behind a SocketCAN interface, a real one or vcan. Neither blocks nor sleeps. Frames are in the
@@ -84,6 +84,7 @@ class SocketcanBus : public CanBus {
   /// When to call poll_interface() or send() again without a frame having come; kNever while all is well.
   HostTime next_deadline() const;
 
+  /// As of the latest call that has looked at the interface.
   SocketcanState state() const;
   /// The state in one sentence, with what to do: "CAN interface can0 is down: sudo ip link set dev can0 up
   /// type can bitrate 1000000 restart-ms 100".

@@ -53,6 +53,7 @@ class VirtualCanBus {
   VirtualCanBus(const VirtualCanBus&) = delete;
   VirtualCanBus& operator=(const VirtualCanBus&) = delete;
 
+  /// As given to the constructor; the bit rate in bit/s.
   const std::string& name() const { return name_; }
   int bitrate() const { return bitrate_; }
 

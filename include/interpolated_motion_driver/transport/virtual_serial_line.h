@@ -70,6 +70,7 @@ class VirtualSerialLine {
   VirtualSerialLine(const VirtualSerialLine&) = delete;
   VirtualSerialLine& operator=(const VirtualSerialLine&) = delete;
 
+  /// As given to the constructor.
   const std::string& name() const { return name_; }
   const SerialLineParameters& parameters() const { return parameters_; }
 

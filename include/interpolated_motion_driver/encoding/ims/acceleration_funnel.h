@@ -21,8 +21,8 @@ class AccelerationFunnel {
   /// Accelerations allowed up to some tick, counts/tick^2.
   struct Gate {
     std::int64_t ticks = 0;  ///< after the state
-    double low = 0.0;
-    double high = 0.0;
+    double low = 0.0;        ///< least and
+    double high = 0.0;       ///< greatest acceleration allowed
   };
 
   /// Looks ahead from `state` at `tick` for up to `longest` (>= 1) ticks. `bound` (counts) applies instead of

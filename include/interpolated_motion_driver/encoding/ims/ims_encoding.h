@@ -59,6 +59,7 @@ struct ImsStream {
   std::vector<ImsCertificate> certificates;  ///< one per segment
   ServoTicks duration{0};                    ///< sum of the segments' times; in ticks of the encoding's scale
 
+  /// Of all certificates, counts; 0 without segments.
   double worst_deviation_counts() const;
 };
 

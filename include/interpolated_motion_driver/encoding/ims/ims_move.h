@@ -11,21 +11,22 @@ namespace interpolated_motion::encoding {
 
 /// What every segment has to keep, in the drive's units and ticks, and the path in counts.
 struct ImsRules {
+  /// Limits rounded down to whole units, of an encoding that is valid (not checked here).
   explicit ImsRules(const ImsEncoding& encoding);
 
   interpolation::ImsScale scale;
-  double counts_per_unit;
+  double counts_per_unit;     ///< that a velocity of one unit moves in a tick
   double lag;                 ///< ticks, see ImsScale::position_lag
   double bound;               ///< counts
   std::int64_t max_velocity;  ///< units
   std::int64_t max_step;      ///< units per tick, change of the velocity
-  std::int64_t min_ticks;
-  std::int64_t max_ticks;
+  std::int64_t min_ticks;     ///< of a segment
+  std::int64_t max_ticks;     ///< of a segment
 };
 
 /// A segment before it is written in the drive's numbers.
 struct ImsMove {
-  std::int64_t ticks = 0;
+  std::int64_t ticks = 0;     ///< duration
   std::int64_t velocity = 0;  ///< units, signed: to ramp to; of a segment that lands, the greatest allowed
   std::int64_t step = 0;      ///< units per tick; 0: constant velocity
   bool lands = false;         ///< comes to a halt on the path's final position
@@ -38,6 +39,7 @@ struct ImsFigures {
   std::int64_t peak_velocity = 0;  ///< units
   std::int64_t peak_step = 0;      ///< units per tick
 
+  /// Whether all three are within the rules.
   bool keep(const ImsRules& rules) const {
     return deviation <= rules.bound && peak_velocity <= rules.max_velocity && peak_step <= rules.max_step;
   }

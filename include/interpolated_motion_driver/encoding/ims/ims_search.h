@@ -13,7 +13,7 @@ namespace interpolated_motion::encoding {
 
 /// A knot the search has found, with the segment that leads to it.
 struct ImsCandidate {
-  std::int64_t tick = 0;
+  std::int64_t tick = 0;  ///< since the interpolated motion began
   interpolation::ImsState state;
   ImsMove move;            ///< that leads here
   ImsFigures figures;      ///< of its execution
@@ -28,11 +28,13 @@ struct ImsGeneration {
   static constexpr std::size_t kWidth = 3;
 
   std::array<ImsCandidate, kWidth> candidates;
-  std::size_t size = 0;
+  std::size_t size = 0;              ///< of `candidates`, 0..kWidth
   std::int64_t longest_allowed = 0;  ///< ticks; what a retreat has left for the segments that lead here
 
+  /// Appends; must not be called when full().
   void add(const ImsCandidate& candidate) { candidates[size++] = candidate; }
   bool full() const { return size == kWidth; }
+  /// Whether a candidate of the same tick and state is among them, however it was reached.
   bool holds(const ImsCandidate& candidate) const;
   std::int64_t shortest() const;  ///< ticks, of the segments that lead here
 };
@@ -47,7 +49,7 @@ struct ImsGeneration {
 /// segments.
 class ImsSearch {
  public:
-  static constexpr std::size_t kDepth = 6;
+  static constexpr std::size_t kDepth = 6;  ///< generations looked ahead before a knot is decided
 
   /// Ticks the search may look at, from the knot decided last.
   static std::int64_t window(const ImsRules& rules);
@@ -73,6 +75,7 @@ class ImsSearch {
   /// The farthest knot from which no segment was found, after next() returned false.
   const ImsCandidate& dead_end() const { return dead_end_; }
 
+  /// What the search was given, and may be read (or moved on) by the caller.
   const TickSamples& samples() const { return samples_; }
   TickSamples& samples() { return samples_; }
   const ImsRules& rules() const { return rules_; }

@@ -25,6 +25,7 @@ class TickSamples {
   /// First tick after the origin at which the path rests for good.
   std::int64_t end() const { return end_; }
 
+  /// Where the path is at `tick`, which may lie before the origin or behind the end.
   GoalTime goal_time(std::int64_t tick) const {
     return GoalTime(origin_time_ + static_cast<double>(tick - origin_) * seconds_per_tick_);
   }
@@ -42,6 +43,7 @@ class TickSamples {
     return positions_.data() + static_cast<std::size_t>(tick - base_);
   }
 
+  /// Where the path rests behind its end, counts, not rounded.
   double final_counts() const { return final_counts_; }
 
  private:

@@ -26,15 +26,19 @@ class Generation {
   /// Two: a second knot saves few records but most dead ends; each more costs its share of the time.
   static constexpr std::size_t kWidth = 2;
 
+  /// The candidates kept, best first; `i` < size() <= kWidth.
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const KnotCandidate& operator[](std::size_t i) const { return candidates_[i]; }
 
+  /// Forgets all candidates.
   void clear() { size_ = 0; }
   /// Whether `candidate` would be kept; needs no figures.
   bool wants(const KnotCandidate& candidate) const;
+  /// Puts a candidate that it wants() in its place, the best first; when full, the last one makes room.
   void add(const KnotCandidate& candidate);
   bool full() const { return size_ == kWidth; }
+  /// Sample that the last candidate reaches; not to be called when empty.
   std::int64_t least_reach() const { return candidates_[size_ - 1].reach; }
   std::int64_t shortest() const;  ///< ms, of the records that lead here
 
@@ -55,7 +59,7 @@ class Generation {
 /// shorter records.
 class KnotSearch {
  public:
-  static constexpr std::size_t kDepth = 6;
+  static constexpr std::size_t kDepth = 6;  ///< generations looked ahead before a knot is decided
 
   /// Continues from `from`, which must be at or before samples.end(). `max_record_ms` in 1..255.
   KnotSearch(PathSamples samples, const SegmentRules& rules, std::int64_t max_record_ms, const PvtKnot& from);
@@ -74,6 +78,7 @@ class KnotSearch {
   /// The farthest knot from which no record was found, after next() returned false.
   const PvtKnot& dead_end() const { return dead_end_; }
 
+  /// What the search was given.
   const PathSamples& samples() const { return samples_; }
   const SegmentRules& rules() const { return rules_; }
 

@@ -29,6 +29,7 @@ class PathSamples {
 
   double position(std::int64_t k) const { return positions_[index(k)]; }   ///< counts; k in the window
   double velocity(std::int64_t k) const { return velocities_[index(k)]; }  ///< counts/ms; k in the window
+  /// Position of sample `k`, counts, and behind the pointer those of the samples that follow in the window.
   const double* positions_from(std::int64_t k) const { return positions_.data() + index(k); }
 
   double final_position() const { return final_position_; }  ///< counts

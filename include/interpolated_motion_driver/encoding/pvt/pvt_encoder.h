@@ -47,6 +47,7 @@ struct PvtStream {
   std::vector<PvtCertificate> certificates;  ///< one per record
   DriveMilliseconds duration{0};             ///< sum of the records' times
 
+  /// Of all certificates, counts; 0 without records.
   double worst_deviation_counts() const;
 };
 

@@ -28,6 +28,7 @@ struct SegmentFigures {
   double peak_velocity = 0.0;      ///< counts/ms
   double peak_acceleration = 0.0;  ///< counts/ms^2
 
+  /// Whether all three are within the rules.
   bool keep(const SegmentRules& rules) const {
     return deviation <= rules.bound && peak_velocity <= rules.max_velocity &&
            peak_acceleration <= rules.max_acceleration;
@@ -36,8 +37,9 @@ struct SegmentFigures {
 
 /// Closed interval of velocities, counts/ms; empty if low > high.
 struct VelocityInterval {
-  double low = 0.0;
-  double high = 0.0;
+  double low = 0.0;   ///< least and
+  double high = 0.0;  ///< greatest velocity that is allowed
+  /// True for a NaN too.
   bool empty() const { return !(low <= high); }
 };
 

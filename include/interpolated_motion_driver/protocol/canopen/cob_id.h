@@ -12,6 +12,7 @@ inline constexpr std::uint8_t kAllNodes = 0;
 /// PDOs of the predefined connection set: 1..4 of each direction.
 inline constexpr int kPdosOfNode = 4;
 
+/// Whether a number is one of those, a drive's node id or PDO.
 inline constexpr bool valid_node_id(unsigned node) { return node >= 1 && node <= kMaxNodeId; }
 inline constexpr bool valid_pdo_number(int n) { return n >= 1 && n <= kPdosOfNode; }
 
@@ -20,12 +21,13 @@ inline constexpr bool valid_pdo_number(int n) { return n >= 1 && n <= kPdosOfNod
 /// drive, an RPDO goes to it.
 namespace cob_id {
 
-inline constexpr std::uint32_t kNmt = 0x000;
-inline constexpr std::uint32_t kSync = 0x080;
-inline constexpr std::uint32_t kTime = 0x100;
-inline constexpr std::uint32_t kLssResponse = 0x7E4;
-inline constexpr std::uint32_t kLssRequest = 0x7E5;
+inline constexpr std::uint32_t kNmt = 0x000;          ///< commands of the master
+inline constexpr std::uint32_t kSync = 0x080;         ///< start of a cycle, from one producer
+inline constexpr std::uint32_t kTime = 0x100;         ///< time of day; not sent by this driver
+inline constexpr std::uint32_t kLssResponse = 0x7E4;  ///< layer setting services (CiA 305), of a drive
+inline constexpr std::uint32_t kLssRequest = 0x7E5;   ///< layer setting services (CiA 305), of the master
 
+/// The services of `node`, 1..127.
 inline constexpr std::uint32_t emcy(std::uint8_t node) { return 0x080u + node; }
 /// TPDO `n`, 1..4.
 inline constexpr std::uint32_t tpdo(int n, std::uint8_t node) {

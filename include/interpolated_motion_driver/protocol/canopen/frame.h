@@ -9,11 +9,11 @@ namespace interpolated_motion::canopen {
 
 /// A classic CAN data or remote frame (ISO 11898-1), as it stands on the bus.
 struct Frame {
-  std::uint32_t id = 0;     ///< 11-bit identifier, or 29-bit when `extended`
-  bool extended = false;    ///< 29-bit identifier
-  bool remote = false;      ///< remote transmission request: carries a length but no data
-  std::uint8_t length = 0;  ///< data length code, 0..8
-  std::array<std::uint8_t, 8> data{};
+  std::uint32_t id = 0;                ///< 11-bit identifier, or 29-bit when `extended`
+  bool extended = false;               ///< 29-bit identifier
+  bool remote = false;                 ///< remote transmission request: carries a length but no data
+  std::uint8_t length = 0;             ///< data length code, 0..8
+  std::array<std::uint8_t, 8> data{};  ///< the first `length` bytes; zeros behind them
 };
 
 inline bool operator==(const Frame& a, const Frame& b) {
@@ -25,7 +25,7 @@ inline bool operator!=(const Frame& a, const Frame& b) { return !(a == b); }
 /// A frame seen on the bus: the time of its last bit, and whether this host sent it.
 struct ReceivedFrame {
   Frame frame;
-  HostTime time{};
+  HostTime time{};   ///< of its last bit on the bus
   bool own = false;  ///< confirmation that a frame of this host has been on the bus
 };
 

@@ -46,13 +46,13 @@ enum class UnexpectedFrame {
   OtherMaster,       ///< NMT, SYNC, TIME, RPDO, SDO request or heartbeat with this host's id, sent by another
   Malformed,         ///< heartbeat or EMCY of a wrong length
 };
-inline constexpr int kUnexpectedFrameCauses = 6;
+inline constexpr int kUnexpectedFrameCauses = 6;  ///< values of UnexpectedFrame
 
 /// Frames of one cause: how many, and the last of them.
 struct UnexpectedFrames {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;  ///< since the master was made
   Frame last;
-  HostTime time{};
+  HostTime time{};  ///< of `last`
 };
 
 /// The CANopen master of one bus, sans-IO: received frames go in with `on_frame`, frames to send come out of
@@ -91,6 +91,7 @@ class Master {
   /// The node, or nullptr when it was not added.
   NodeLink* find_node(std::uint8_t id) { return id <= kMaxNodeId ? nodes_[id].get() : nullptr; }
 
+  /// As given to the constructor.
   const std::string& bus_name() const { return bus_name_; }
   const MasterParameters& parameters() const { return parameters_; }
 
@@ -127,6 +128,7 @@ class Master {
   std::uint64_t syncs_confirmed() const { return syncs_confirmed_; }
   /// When the next periodic SYNC is due; `kNever` when there are none, and before the first `poll`.
   HostTime next_sync_due() const { return sync_.next_deadline(); }
+  /// How late periodic SYNCs have been on the bus.
   const SyncTiming& sync_timing() const { return sync_timing_; }
 
   /// Time stamps given to the transport.
@@ -142,6 +144,7 @@ class Master {
   /// As of the latest time this master was given.
   double bus_load() const { return load_.load(now_); }
 
+  /// Frames that were not used, `count` 0 when there were none of that cause.
   const UnexpectedFrames& unexpected(UnexpectedFrame cause) const;
   /// "can0: 3 frames of nodes that are not configured, last: TPDO 1 of node 9, 189#3702"; empty when there
   /// were none.

@@ -30,10 +30,12 @@ class NodeLink {
   NodeLink(const NodeLink&) = delete;
   NodeLink& operator=(const NodeLink&) = delete;
 
+  /// Node id, 1..127.
   std::uint8_t id() const { return id_; }
   /// "can0 node 3", for texts.
   std::string name() const;
 
+  /// Object access, and the watch over the node's heartbeat; they live as long as the node.
   SdoClient& sdo() { return sdo_; }
   const SdoClient& sdo() const { return sdo_; }
   HeartbeatConsumer& heartbeat() { return heartbeat_; }

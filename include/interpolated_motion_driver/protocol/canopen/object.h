@@ -9,8 +9,8 @@ namespace interpolated_motion::canopen {
 
 /// Address of one value in a drive's object dictionary (CiA 301, 7.4).
 struct ObjectAddress {
-  std::uint16_t index = 0;
-  std::uint8_t subindex = 0;
+  std::uint16_t index = 0;    ///< 0x1000.. CiA 301, 0x2000.. the vendor's, 0x6000.. the device profile's
+  std::uint8_t subindex = 0;  ///< 0 for a variable
 };
 
 inline constexpr bool operator==(ObjectAddress a, ObjectAddress b) {

@@ -26,6 +26,7 @@ inline constexpr bool operator==(const PdoEntry& a, const PdoEntry& b) { return 
 struct PdoMapping {
   std::vector<PdoEntry> entries;
 
+  /// Sum of the entries, 0..64 in a valid mapping.
   unsigned bits() const;
   /// Length of the PDO in bytes.
   std::uint8_t length() const { return static_cast<std::uint8_t>((bits() + 7) / 8); }
@@ -57,7 +58,7 @@ struct PdoConfiguration {
   PdoDirection direction = PdoDirection::Rpdo;
   int number = 1;  ///< 1..4
   PdoMapping mapping;
-  std::uint8_t transmission_type = kEventDriven;
+  std::uint8_t transmission_type = kEventDriven;  ///< 0..240 by SYNC, 252..253 on request, 254..255 event
   /// Shortest pause between two TPDOs, in 100 us; not written when empty. RPDOs have none.
   std::optional<std::uint16_t> inhibit_time;
   /// TPDO at the latest after so many ms; not written when empty. EPOS2 has no such object (sub-index 5).

@@ -14,6 +14,7 @@ class Ring {
   /// `capacity`: 1 or more.
   explicit Ring(std::size_t capacity) : slots_(capacity) {}
 
+  /// How many values are in it; full at capacity().
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == slots_.size(); }
   std::size_t size() const { return size_; }
@@ -53,6 +54,7 @@ class Ring {
     return value;
   }
 
+  /// Drops all; keeps the memory.
   void clear() { first_ = size_ = 0; }
 
  private:

@@ -81,6 +81,7 @@ class SdoClient {
   void set_timeout(HostDuration timeout) { parameters_.timeout = timeout; }
   HostDuration timeout() const { return parameters_.timeout; }
 
+  /// Node id of the server, 1..127.
   std::uint8_t node() const { return node_; }
   /// Frames ignored since the start, see above.
   std::uint64_t ignored_frames() const { return ignored_frames_; }

@@ -15,11 +15,13 @@ namespace interpolated_motion::canopen {
 /// allocation.
 class SdoData {
  public:
+  /// The bytes in the order of the wire; `i` < size().
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const std::uint8_t* data() const { return is_small() ? small_.data() : large_.data(); }
   std::uint8_t operator[](std::size_t i) const { return data()[i]; }
 
+  /// Drops all bytes, and adds `count` behind the last. More than 8 in all are allocated.
   void clear();
   void append(const std::uint8_t* bytes, std::size_t count);
   /// Keeps the first `count` bytes; nothing happens when there are no more than that.
@@ -40,7 +42,7 @@ enum class SdoDirection {
 
 /// Outcome of one SDO transfer.
 struct SdoResult {
-  std::uint8_t node = 0;
+  std::uint8_t node = 0;  ///< 1..127
   ObjectAddress address;
   SdoDirection direction = SdoDirection::Upload;
   bool ok = false;

@@ -10,10 +10,10 @@ namespace interpolated_motion::cia402 {
 /// table 4-30). Each is written whole: reading back and changing single bits is not reliable on EPOS.
 namespace controlword {
 
-inline constexpr std::uint16_t kDisableVoltage = 0x0000;
-inline constexpr std::uint16_t kQuickStop = 0x0002;
-inline constexpr std::uint16_t kShutdown = 0x0006;
-inline constexpr std::uint16_t kSwitchOn = 0x0007;
+inline constexpr std::uint16_t kDisableVoltage = 0x0000;  ///< to SwitchOnDisabled: power off at once
+inline constexpr std::uint16_t kQuickStop = 0x0002;       ///< stops with the quick stop deceleration, 0x6085
+inline constexpr std::uint16_t kShutdown = 0x0006;        ///< to ReadyToSwitchOn
+inline constexpr std::uint16_t kSwitchOn = 0x0007;        ///< to SwitchedOn, from OperationEnabled too
 inline constexpr std::uint16_t kEnableOperation =
     0x000F;                                           ///< in mode 7: ends playing, the axis stays in control
 inline constexpr std::uint16_t kFaultReset = 0x0080;  ///< acts on the rising edge: write 0x0000 before
@@ -38,7 +38,7 @@ struct ControlStep {
     Impossible,       ///< the state wanted cannot be commanded, or the state is unknown
   };
   Kind kind = Kind::Wait;
-  std::uint16_t controlword = 0;
+  std::uint16_t controlword = 0;  ///< for Send
 };
 
 /// Next step from `current` to `target`, one of SwitchOnDisabled, ReadyToSwitchOn, SwitchedOn,

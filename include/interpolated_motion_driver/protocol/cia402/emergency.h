@@ -11,12 +11,12 @@ namespace interpolated_motion::cia402 {
 /// Emergency error codes of EPOS2 that the driver acts on.
 namespace emergency_code {
 
-inline constexpr std::uint16_t kReset = 0x0000;      ///< the error has been reset
-inline constexpr std::uint16_t kHeartbeat = 0x8130;  ///< life guard or heartbeat of this host missed
-inline constexpr std::uint16_t kPdoLength = 0x8210;
-inline constexpr std::uint16_t kFollowingError = 0x8611;
-inline constexpr std::uint16_t kPositionLimit = 0xFF09;  ///< software position limit, 0x607D
-inline constexpr std::uint16_t kInterpolation = 0xFF0C;  ///< which error it was, only 0x20C4:01 tells
+inline constexpr std::uint16_t kReset = 0x0000;           ///< the error has been reset
+inline constexpr std::uint16_t kHeartbeat = 0x8130;       ///< life guard or heartbeat of this host missed
+inline constexpr std::uint16_t kPdoLength = 0x8210;       ///< an RPDO was too short for its mapping
+inline constexpr std::uint16_t kFollowingError = 0x8611;  ///< larger than 0x6065
+inline constexpr std::uint16_t kPositionLimit = 0xFF09;   ///< software position limit, 0x607D
+inline constexpr std::uint16_t kInterpolation = 0xFF0C;   ///< which error it was, only 0x20C4:01 tells
 
 }  // namespace emergency_code
 

@@ -5,6 +5,7 @@
 
 namespace interpolated_motion::cia402 {
 
+/// As CiA has given it to maxon motor.
 inline constexpr std::uint32_t kMaxonVendorId = 0x000000FB;
 
 /// Who a drive says it is, object 0x1018 (CiA 301).
@@ -14,6 +15,7 @@ struct Identity {
   std::uint32_t revision = 0;  ///< the vendor's; maxon: firmware version << 16
   std::uint32_t serial = 0;    ///< 0 for drives that have none
 
+  /// Whether `vendor` is kMaxonVendorId.
   bool is_maxon() const { return vendor == kMaxonVendorId; }
   /// Of a maxon drive; without meaning for others.
   std::uint16_t hardware_version() const { return static_cast<std::uint16_t>(product >> 16); }

@@ -14,9 +14,9 @@ namespace interpolated_motion::cia402 {
 /// | 4..6  | velocity | s24, LSB first   | velocity unit (0x608B), rpm of the motor     |
 /// | 7     | time     | u8               | ms, 1..255; 0 ends the mode without an error |
 struct InterpolationDataRecord {
-  std::int32_t position = 0;
-  std::int32_t velocity = 0;
-  std::uint8_t time = 0;
+  std::int32_t position = 0;  ///< qc, absolute
+  std::int32_t velocity = 0;  ///< kMinRecordVelocity..kMaxRecordVelocity, signed as the position
+  std::uint8_t time = 0;      ///< ms since the record before
 };
 
 inline bool operator==(const InterpolationDataRecord& a, const InterpolationDataRecord& b) {

@@ -96,7 +96,7 @@ inline constexpr std::uint32_t kRestoreSignature = 0x64616F6C;  ///< "load", for
 /// EMCY code of a drive whose target positions, or whose SYNC, have failed to come (CiA 402, error codes:
 /// sync controller).
 namespace emergency_code {
-inline constexpr std::uint16_t kSyncController = 0x8700;
+inline constexpr std::uint16_t kSyncController = 0x8700;  ///< beyond its ride-through
 }  // namespace emergency_code
 
 /// What an object is called in CiA 301, CiA 402 and maxon's documents, which agree, e.g. "Position Actual

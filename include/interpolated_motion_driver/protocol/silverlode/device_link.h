@@ -16,10 +16,10 @@ class LineMaster;
 
 /// What one address has been asked and has answered, since the start.
 struct LinkStatistics {
-  std::uint64_t sent = 0;  ///< requests on the line, repeats included
-  std::uint64_t repeats = 0;
-  std::uint64_t acknowledged = 0;
-  std::uint64_t data = 0;
+  std::uint64_t sent = 0;          ///< requests on the line, repeats included
+  std::uint64_t repeats = 0;       ///< requests sent again after an attempt without a whole reply
+  std::uint64_t acknowledged = 0;  ///< replies "*"
+  std::uint64_t data = 0;          ///< replies "#"
   std::array<std::uint64_t, kMaxNakCode + 1> refused{};  ///< by NAK code, others at index 0
   std::uint64_t timeouts = 0;                            ///< attempts without a reply
   std::uint64_t garbled = 0;                             ///< attempts that ended with a garbled reply
@@ -37,6 +37,7 @@ class DeviceLink {
   DeviceLink(const DeviceLink&) = delete;
   DeviceLink& operator=(const DeviceLink&) = delete;
 
+  /// 1..254.
   std::uint8_t address() const { return address_; }
   /// "line0 address 17", for texts.
   std::string name() const;
@@ -62,6 +63,7 @@ class DeviceLink {
   /// Requests without outcome: waiting or on the line. The bulk request included.
   std::size_t pending() const;
 
+  /// Counted since the device was added.
   const LinkStatistics& statistics() const { return statistics_; }
   /// `line0 address 17: IMW "@17 25 4000 ..." refused, NAK 6 (buffer full)`. Says so when the address has
   /// answered with garbled replies several times in a row, as two drives on one address do.

@@ -26,14 +26,14 @@ enum class UnexpectedLine : std::uint8_t {
   Malformed,     ///< no reply at all
   Truncated,     ///< a line without its end when the time was over
 };
-inline constexpr int kUnexpectedLineCauses = 5;
+inline constexpr int kUnexpectedLineCauses = 5;  ///< values of UnexpectedLine
 
 /// Lines of one cause: how many, the last of them, and what had been sent before it.
 struct UnexpectedLines {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;  ///< since the master was made
   LineText last;
-  LineText sent;
-  HostTime time{};
+  LineText sent;    ///< the request before it
+  HostTime time{};  ///< of the last character of `last`
 };
 
 /// The host's end of one serial line with many SilverLode drives in 8-bit ASCII, sans-IO: characters received
@@ -62,8 +62,10 @@ class LineMaster {
   /// The device, or nullptr when it was not added.
   DeviceLink* find_device(std::uint8_t address) { return devices_[address].get(); }
 
+  /// Devices added so far.
   std::size_t device_count() const { return in_order_.size(); }
 
+  /// As given to the constructor.
   const std::string& line_name() const { return line_name_; }
   const LineParameters& parameters() const { return parameters_; }
 
@@ -119,6 +121,7 @@ class LineMaster {
   /// How late replies come, 0 before the first; `turnaround` is what is planned with.
   HostDuration reply_delay() const { return reply_delay_.mean(); }
 
+  /// Lines that were no answer, `count` 0 when there were none of that cause.
   const UnexpectedLines& unexpected(UnexpectedLine cause) const;
   /// `line0: a reply of another address than the one asked came 3 times, last "* 12" after "@17 20"`; empty
   /// when there were none.

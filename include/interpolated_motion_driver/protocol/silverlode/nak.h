@@ -18,7 +18,7 @@ enum class NakCode : std::uint16_t {
   BadLockoutCode = 9,
   BadChecksum = 10,
 };
-inline constexpr std::uint16_t kMaxNakCode = 10;
+inline constexpr std::uint16_t kMaxNakCode = 10;  ///< greatest value of NakCode
 
 /// "buffer full"; "unknown code" for one that is none of the above.
 std::string_view to_text(NakCode code);

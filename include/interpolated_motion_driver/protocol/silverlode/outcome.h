@@ -33,7 +33,7 @@ struct Outcome {
   RequestId id = kNoRequest;
   Request request;
   OutcomeKind kind = OutcomeKind::Dropped;
-  std::uint8_t word_count = 0;
+  std::uint8_t word_count = 0;                        ///< of `words`, 0..kMaxReplyWords
   std::array<std::uint16_t, kMaxReplyWords> words{};  ///< Data only
   NakCode nak{};                                      ///< Refused only
   int attempts = 0;                                   ///< times the request went on the line
@@ -47,6 +47,7 @@ struct Outcome {
   bool accepted() const { return kind == OutcomeKind::Acknowledged || kind == OutcomeKind::Data; }
   /// It is not known whether the drive has executed the request.
   bool unknown() const { return kind == OutcomeKind::NoReply || kind == OutcomeKind::Garbled; }
+  /// The drive has refused the request for this reason.
   bool refused_with(NakCode code) const { return kind == OutcomeKind::Refused && nak == code; }
   /// Data: word `n`; empty when the reply has not that many.
   std::optional<std::uint16_t> word(std::size_t n = 0) const;

@@ -11,14 +11,15 @@ inline constexpr std::uint16_t kActualPosition = 1;  ///< counts
 inline constexpr std::uint16_t kPositionError = 6;   ///< counts, signed in the low word, see `position_error`
 inline constexpr std::uint16_t kImsControl = 17;     ///< see `ImsControl`
 inline constexpr std::uint16_t kImsTicksLeft = 18;  ///< servo ticks of the running segment; not to be written
-inline constexpr std::uint16_t kImsDeceleration = 19;  ///< when the queue runs empty
-inline constexpr std::uint16_t kProfilePosition = 20;  ///< counts; 20..23 are overwritten by each segment
-inline constexpr std::uint16_t kProfileAcceleration = 21;
-inline constexpr std::uint16_t kProfileVelocity = 22;
-inline constexpr std::uint16_t kProfileDeceleration = 23;
-inline constexpr std::uint16_t kProfileOffset = 24;  ///< of PMC
+inline constexpr std::uint16_t kImsDeceleration = 19;      ///< when the queue runs empty
+inline constexpr std::uint16_t kProfilePosition = 20;      ///< counts; 20..23 are overwritten by each segment
+inline constexpr std::uint16_t kProfileAcceleration = 21;  ///< units of acceleration
+inline constexpr std::uint16_t kProfileVelocity = 22;      ///< units of velocity
+inline constexpr std::uint16_t kProfileDeceleration = 23;  ///< units of acceleration
+inline constexpr std::uint16_t kProfileOffset = 24;        ///< of PMC
 }  // namespace registers
 
+/// The two words of a register.
 inline constexpr std::uint16_t high_word(std::int32_t value) {
   return static_cast<std::uint16_t>(static_cast<std::uint32_t>(value) >> 16);
 }
@@ -41,6 +42,7 @@ struct ImsControl {
   /// First of the four registers with the next segment; 0: the queue of IMW is used.
   std::uint16_t first_register = 0;
 };
+/// Register 17 read and to be written.
 constexpr ImsControl decode_ims_control(std::int32_t value) {
   return {high_word(value) != 0, low_word(value)};
 }
@@ -50,9 +52,9 @@ constexpr std::int32_t encode_ims_control(ImsControl control) {
 
 /// What the units of a drive mean. Full scale is 2^31.
 struct DriveScale {
-  double counts_per_revolution = 4000;
-  double tick = 120e-6;  ///< s
-  double velocity_full_scale_rpm = 4000;
+  double counts_per_revolution = 4000;    ///< of the encoder on the motor
+  double tick = 120e-6;                   ///< s
+  double velocity_full_scale_rpm = 4000;  ///< rpm of the motor at 2^31
   /// Of ordinary commands (STP): 1 unit is 1 unit of velocity a tick.
   double acceleration_full_scale_rpm_per_tick = 4000;
   /// Of IMS segments and register 19: QCI-TD044 says 2000.

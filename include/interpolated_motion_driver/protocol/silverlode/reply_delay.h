@@ -10,6 +10,7 @@ namespace interpolated_motion::silverlode {
 /// replies, older ones weigh less.
 class ReplyDelay {
  public:
+  /// One more reply; the new one weighs 1/32, the first one 1.
   void add(HostDuration delay) { mean_ = mean_ ? *mean_ + (delay - *mean_) / kMemory : delay; }
 
   /// 0 before the first reply.

@@ -27,7 +27,7 @@ enum class ReplyKind : std::uint8_t {
 
 /// A request as it goes on the line in 8-bit ASCII: "@16 12 1" and CR, all numbers decimal.
 struct Request {
-  std::uint8_t address = 0;
+  std::uint8_t address = 0;  ///< 1..254, or kGlobalAddress
   Command command = Command::POL;
   ReplyKind reply = ReplyKind::Ack;
   std::uint8_t reply_words = 0;  ///< of a data reply; 0: any number
@@ -44,24 +44,31 @@ std::size_t longest_reply_characters(const Request& request);
 /// The request of `command` with `count` decimal arguments. The functions below are the ones to use.
 Request make_request(std::uint8_t address, Command command, const std::int32_t* arguments, std::size_t count);
 
+/// Poll: the polling status word, see `PollingStatus`, or an ACK when it is 0.
 Request pol_request(std::uint8_t address);
 /// Poll with a data reply of one word, whatever it is (SilverDust revision 05 and later).
 Request por_request(std::uint8_t address);
 /// Clears the bits of `mask` in the polling status word. A drive clears only bits that it has reported
 /// before.
 Request cpl_request(std::uint8_t address, std::uint16_t mask);
+/// Hard stop of motion and program; the motor driver is then disabled.
 Request hlt_request(std::uint8_t address);
 /// `deceleration`: -1 at once, 0 that of the running command, 1..2^29 in units of acceleration (4000 RPM per
 /// tick = 2^31).
 Request stp_request(std::uint8_t address, std::int32_t deceleration);
+/// Restarts the drive, which answers nothing.
 Request rst_request(std::uint8_t address);
+/// Reads the revision of the firmware.
 Request rvn_request(std::uint8_t address);
+/// Writes a 32-bit register at once, during a motion too.
 Request wri_request(std::uint8_t address, std::uint16_t register_number, std::int32_t value);
 /// Reads 1 to 4 registers: two words of the reply each, high word first. More than one at a time only on
 /// SilverDust revision 31 and later.
 template <class... Registers>
 Request rrg_request(std::uint8_t address, Registers... registers);
+/// Reads the internal status word, see `InternalStatus`.
 Request ris_request(std::uint8_t address);
+/// Reads the I/O status word, see `IoStatus`.
 Request rio_request(std::uint8_t address);
 /// One segment for the queue of the interpolated motion, the numbers as in QCI-TD044: `time` in servo ticks
 /// (0 ends the motion), `position` in counts, `acceleration` and `velocity` in the units of IMS. A full queue
@@ -72,21 +79,26 @@ Request imw_request(std::uint8_t address, std::int32_t time, std::int32_t positi
 /// stop condition.
 Request mav_request(std::uint8_t address, std::int32_t position, std::int32_t acceleration,
                     std::int32_t velocity);
+/// Makes the actual position the target: the position error is 0 then.
 Request ttp_request(std::uint8_t address);
+/// Calls the present place 0: target and position.
 Request ztp_request(std::uint8_t address);
 /// `moving` and `holding` in counts, `delay` in servo ticks.
 Request erl_request(std::uint8_t address, std::int16_t moving, std::int16_t holding, std::uint16_t delay);
+/// Clears the latched bits of the internal status word.
 Request cis_request(std::uint8_t address);
 /// Bits of the internal status word that stop the motor (`enable`), in which state each.
 Request kmc_request(std::uint8_t address, std::uint16_t enable, std::uint16_t state);
 /// `delay` of replies in servo ticks: `LineParameters::reply_timeout` must be longer.
 Request adl_request(std::uint8_t address, std::uint16_t delay);
+/// Switches the motor driver on, and off.
 Request emd_request(std::uint8_t address);
 Request dmd_request(std::uint8_t address);
 /// Starts the interpolated motion. Which parameters IMS takes is in no document at hand; its sister commands
 /// take stop enable and stop state, hence "0 0". `arguments`: up to four decimal numbers, one space between
 /// two; empty for none. Throws std::invalid_argument otherwise. Not repeatable.
 Request ims_request(std::uint8_t address, std::string_view arguments = "0 0");
+/// Empties the queue of IMW.
 Request imq_request(std::uint8_t address);
 
 template <class... Registers>

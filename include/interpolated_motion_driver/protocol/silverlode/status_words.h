@@ -7,24 +7,25 @@ namespace interpolated_motion::silverlode {
 
 /// Polling status word (POL, POR). Bits stay set until they have been read and then cleared with CPL.
 struct PollingStatus {
-  std::uint16_t raw = 0;
+  std::uint16_t raw = 0;  ///< as it is on the line
 
+  /// Bit `n`, 0..15; the bits with a name below.
   bool bit(unsigned n) const { return (raw >> n & 1u) != 0; }
   bool aborted_packet() const { return bit(0); }
   bool receive_checksum_error() const { return bit(1); }
-  bool soft_limit() const { return bit(2); }
+  bool soft_limit() const { return bit(2); }  ///< a software travel limit was met
   bool kill_motor() const { return bit(3); }  ///< shut down by a kill-motor condition
   bool framing_error() const { return bit(4); }
   bool message_too_long() const { return bit(5); }
   bool check_status_condition() const { return bit(6); }  ///< of CKS
-  bool receive_overflow() const { return bit(7); }
-  bool moving_error() const { return bit(8); }
-  bool holding_error() const { return bit(9); }
-  bool voltage_error() const { return bit(10); }  ///< low or over
+  bool receive_overflow() const { return bit(7); }        ///< of the receive buffer
+  bool moving_error() const { return bit(8); }            ///< beyond the limit of ERL in motion
+  bool holding_error() const { return bit(9); }           ///< beyond the limit of ERL at rest
+  bool voltage_error() const { return bit(10); }          ///< low or over
   bool ended_by_input() const { return bit(11); }
-  bool command_error() const { return bit(12); }
-  bool motion_done() const { return bit(13); }  ///< the program or motion command has completed
-  bool memory_error() const { return bit(14); }
+  bool command_error() const { return bit(12); }  ///< a command could not be executed
+  bool motion_done() const { return bit(13); }    ///< the program or motion command has completed
+  bool memory_error() const { return bit(14); }   ///< non-volatile memory
   bool immediate_done() const { return bit(15); }
 
   /// The drive does not (or must not be trusted to) go on: shut down, soft limit, moving or holding error,
@@ -40,8 +41,9 @@ struct PollingStatus {
 /// Internal status word (RIS). Latched bits are cleared with CIS. No bit tells that the motor driver is
 /// enabled.
 struct InternalStatus {
-  std::uint16_t raw = 0;
+  std::uint16_t raw = 0;  ///< as it is on the line
 
+  /// Bit `n`, 0..15; the bits with a name below.
   bool bit(unsigned n) const { return (raw >> n & 1u) != 0; }
   bool index_found() const { return bit(0); }
   bool last_calculation_zero() const { return bit(1); }
@@ -66,8 +68,9 @@ struct InternalStatus {
 
 /// I/O status word (RIO): states of now, nothing is latched.
 struct IoStatus {
-  std::uint16_t raw = 0;
+  std::uint16_t raw = 0;  ///< as it is on the line
 
+  /// Bit `n`, 0..15; the bits with a name below.
   bool bit(unsigned n) const { return (raw >> n & 1u) != 0; }
   bool index() const { return bit(0); }
   bool internal_index() const { return bit(1); }
