@@ -8,14 +8,12 @@ import pytest
 import real_arm
 from can_log import Candump, frames, tshark, wait_for_socket
 from diagnostic_msgs.msg import DiagnosticArray
-from driver_client import PATIENCE, Latest, goal, point
+from driver_client import PATIENCE, Latest
 from goal_files import JOINTS
 
-ZERO = [0.0] * 6
 FLOOD = 20000
 FLOOD_ID = '781'  # node 1, so it passes the driver's filters, and below everything of CANopen
 OVERTEMPERATURE = 0x4210  # CiA 301 error code 42xxh: device temperature
-ABORTED = 4  # actionlib
 
 
 @pytest.mark.usefixtures('ros')
@@ -51,20 +49,7 @@ class EposArm(real_arm.RealArm):
         return int(bus['frames received']), int(bus['lost frames'])
 
     def test_d_a_fault_is_reported_and_reset(self):
-        self.driver.action.send(goal(JOINTS, [point(20.0, [-0.5] * 6, ZERO)]))
-        self.driver.wait_moving()
-        self.inject('joint3', 'emcy 0x%04X' % OVERTEMPERATURE)
-        status, result = self.driver.action.ending()
-        self.assertEqual(status, ABORTED, result)
-        self.assertIn('joint3', result.error_string)
-        self.assertIn('%04X' % OVERTEMPERATURE, result.error_string)
-        rest = self.driver.wait_standstill()
-        for request in (lambda: self.driver.trigger('reset_faults'), lambda: self.driver.enable(True)):
-            answer = request()
-            self.assertTrue(answer.success, answer.message)
-            for before, now in zip(rest, self.driver.positions()):
-                self.assertAlmostEqual(before, now, delta=2e-3)
-        self.driver.go(JOINTS, ZERO, 3.0)
+        self.expect_emergency('joint3', OVERTEMPERATURE)
 
     def test_e_no_frame_of_a_flood_is_lost_unnoticed(self):
         received, lost_before = self.heard()

@@ -90,6 +90,23 @@ class RealArm(AnyDrives):
     def inject(self, target, command):
         self.drives.inject(target, command)
 
+    def expect_emergency(self, joint, code):
+        """In the middle of a goal a CAN drive reports an error: it is told, nothing moves while it is reset, and the arm can go on."""
+        self.driver.action.send(goal(JOINTS, [point(20.0, [-0.5] * 6, [0.0] * 6)]))
+        self.driver.wait_moving()
+        self.inject(joint, 'emcy 0x%04X' % code)
+        status, result = self.driver.action.ending()
+        self.assertEqual(status, GoalStatus.ABORTED, result)
+        self.assertIn(joint, result.error_string)
+        self.assertIn('%04X' % code, result.error_string)
+        rest = self.driver.wait_standstill()
+        for request in (lambda: self.driver.trigger('reset_faults'), lambda: self.driver.enable(True)):
+            answer = request()
+            self.assertTrue(answer.success, answer.message)
+            for before, now in zip(rest, self.driver.positions()):
+                self.assertAlmostEqual(before, now, delta=2e-3)
+        self.driver.go(JOINTS, [0.0] * 6, 3.0)
+
     def expect_recovery(self, unplug, plug, *texts):
         """In the middle of a goal unplug() is called. The goal ends with the texts; after plug(), ~reset_faults and ~enable the arm is
         ready without a restart of anything, and nothing moves without a new goal."""
