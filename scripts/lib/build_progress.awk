@@ -25,7 +25,7 @@ function show(done, total,    percent, left) {
   next
 }
 
-/^ninja: (no work to do|Entering directory)/ { next }
+/^ninja: (no work to do|Entering directory)|^-- / { next }
 
 {
   if (tty && work) printf "\n"
