@@ -106,8 +106,11 @@ void AxisBase::fail(const std::string& reason, HostTime now) { end_in(Stage::Fau
 void AxisBase::lose(const std::string& reason, HostTime now) { end_in(Stage::Offline, reason, now); }
 
 void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
+  if (stage_ == Stage::FaultStopping) {
+    if (stage == Stage::Offline) after_stop_ = stage;
+    return;
+  }
   after_stop_ = stage;
-  if (stage_ == Stage::FaultStopping) return;
   const bool moving = enabled() && is_powered() && player_->may_move();
   if (moving) rest_due_ = now + player_->longest_motion(now);
   fault_text_ = fmt::format("{}: {}.", who(), reason);
