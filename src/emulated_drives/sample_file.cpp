@@ -1,7 +1,6 @@
 #include "sample_file.h"
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
@@ -10,9 +9,7 @@
 namespace interpolated_motion::emulated_drives {
 namespace {
 
-/// Writing takes far longer than computing samples: they are written in blocks, of this time and size at
-/// most.
-constexpr HostDuration kFlushPeriod = std::chrono::milliseconds(20);
+/// Some seconds of a drive's samples: writing takes far longer than computing them.
 constexpr std::size_t kBuffer = std::size_t{1} << 20;
 
 }  // namespace
@@ -32,7 +29,8 @@ void SampleFile::open() {
 
 void SampleFile::add(const emulation::DemandSample& sample) {
   const bool interpolated = last_ && last_->interpolating;
-  const bool stands = last_ && last_->demand == sample.demand && last_->actual == sample.actual;
+  const bool rests = last_ && last_->demand == sample.demand;
+  const bool stands = rests && last_->actual == sample.actual;
   last_ = sample;
   if (sample.interpolating && (!interpolated || sample.drive_seconds == 0.0)) open();
   if (!sample.interpolating && (!moving_ || stands)) {
@@ -44,10 +42,8 @@ void SampleFile::add(const emulation::DemandSample& sample) {
   fmt::print(file_.get(), "{} {:.6f} {:.6f} {} {}\n", sample.time.time_since_epoch().count(),
              sample.drive_seconds, sample.demand, sample.actual, sample.interpolating ? 1 : 0);
   const bool ends = interpolated && !sample.interpolating;
-  if (ends || sample.time - flushed_ > kFlushPeriod) {
-    std::fflush(file_.get());
-    flushed_ = sample.time;
-  }
+  if (ends || (rests && !rested_)) std::fflush(file_.get());
+  rested_ = rests;
 }
 
 }  // namespace interpolated_motion::emulated_drives

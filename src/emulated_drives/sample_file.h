@@ -12,7 +12,8 @@ namespace interpolated_motion::emulated_drives {
 /// Writes the samples of one drive's latest motion to FOLDER/NAME, from the first one that interpolates until
 /// the drive stands; a new motion begins the file anew. A line a sample: host time in ns (CLOCK_MONOTONIC),
 /// time of the drive since the start of its motion in s, demand and actual position in counts, and 1 while it
-/// interpolates. The file is complete up to the end of the interpolation before the drive tells of it.
+/// interpolates. The file is complete up to the end of the interpolation before the drive tells of it, and
+/// whenever the demand has come to rest.
 class SampleFile {
  public:
   /// Throws std::runtime_error when the file cannot be written.
@@ -31,7 +32,7 @@ class SampleFile {
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::optional<emulation::DemandSample> last_;
   bool moving_ = false;
-  HostTime flushed_{};  ///< of the last sample that is surely in the file
+  bool rested_ = false;  ///< the demand did not change at the last sample
 };
 
 }  // namespace interpolated_motion::emulated_drives
