@@ -5,6 +5,8 @@
 #include "hardware/host_stall.h"
 #include "interpolated_motion_driver/axis/cyclic/cyclic_axis.h"
 #include "interpolated_motion_driver/axis/epos/epos_axis.h"
+#include "interpolated_motion_driver/emulation/cyclic/cyclic_drive.h"
+#include "interpolated_motion_driver/emulation/epos/epos_drive.h"
 
 // The host is away from drives on CAN that would wait for it: what it did not hear meanwhile is no silence of
 // theirs, and no time limit of theirs runs.
@@ -39,7 +41,8 @@ class EposHostAway : public HostStall {
     ASSERT_EQ(axis.state(), AxisState::Moving) << axis.fault_text();
   }
 
-  emulation::EposDrive& drive_ = world_.add_epos(bus_, drive_parameters<emulation::EposParameters>());
+  emulation::EposDrive& drive_ =
+      world_.add<emulation::EposDrive>(bus_, drive_parameters<emulation::EposParameters>());
   axis::EposAxis axis{patient_axis(axis_parameters<axis::EposAxisParameters>()), link.master(),
                       link.master().add_node(1)};
 };
@@ -101,7 +104,8 @@ class CyclicHostAway : public HostStall {
     ASSERT_EQ(axis.state(), AxisState::Moving) << axis.fault_text();
   }
 
-  emulation::CyclicDrive& drive_ = world_.add_cyclic(bus_, drive_parameters<emulation::CyclicParameters>());
+  emulation::CyclicDrive& drive_ =
+      world_.add<emulation::CyclicDrive>(bus_, drive_parameters<emulation::CyclicParameters>());
   axis::CyclicAxis axis{patient_axis(axis_parameters<axis::CyclicAxisParameters>()), link.master(),
                         link.master().add_node(1)};
 };

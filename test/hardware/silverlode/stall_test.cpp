@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "interpolated_motion_driver/axis/silverlode/silverlode_axis.h"
+#include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/emulation/world.h"
 #include "interpolated_motion_driver/hardware/serial_link.h"
 #include "interpolated_motion_driver/trajectory/path.h"
@@ -120,7 +121,7 @@ class SilverlodeHostStall : public testing::Test {
   emulation::World world_;
   transport::VirtualSerialLine& line_ = world_.add_serial_line("line0");
   hardware::SerialLink link{line_configuration(), line_.host()};
-  emulation::SilverDust& drive_ = world_.add_silverdust(line_, {});
+  emulation::SilverDust& drive_ = world_.add<emulation::SilverDust>(line_, emulation::SilverDustParameters{});
   axis::SilverlodeAxis axis{axis_parameters(), link.master(), link.master().add_device(16)};
 };
 
