@@ -20,7 +20,7 @@ constexpr double kStanding = 1e-4;
 /// s after the start, while records of three seconds are still to be sent (`commit_horizon` is two).
 constexpr double kStillFed = 0.7;
 
-class Standstill : public FaultInMotion {
+class EndAtRest : public FaultInMotion {
  protected:
   /// Each joint over 2.5 rad, `for_seconds` after the start, at about 1.5 rad/s in the middle of three
   /// seconds.
@@ -59,7 +59,7 @@ class Standstill : public FaultInMotion {
   std::size_t joints_ = 0;
 };
 
-TEST_F(Standstill, LostRecordOfTheOnlyJoint) {
+TEST_F(EndAtRest, LostRecordOfTheOnlyJoint) {
   set_out(arm_of(1), kStillFed);
   inject("can0", "drop_id 0x201 1");
   const auto result = expect_end_at_rest(5.0);
@@ -67,7 +67,7 @@ TEST_F(Standstill, LostRecordOfTheOnlyJoint) {
   EXPECT_FALSE(contains(result.text, "other joints")) << result.text;
 }
 
-TEST_F(Standstill, LostRecordOfOneOfSeveralJoints) {
+TEST_F(EndAtRest, LostRecordOfOneOfSeveralJoints) {
   set_out(six_axis(), kStillFed);
   inject("can0", "drop_id 0x203 1");
   const auto result = expect_end_at_rest(5.0);
@@ -75,7 +75,7 @@ TEST_F(Standstill, LostRecordOfOneOfSeveralJoints) {
 }
 
 // The drive brakes by its fault reaction, and says so: that is not yet rest.
-TEST_F(Standstill, FaultOfTheOnlyEpos) {
+TEST_F(EndAtRest, FaultOfTheOnlyEpos) {
   set_out(arm_of(1));
   inject("joint1", "emcy 0x2310");
   const auto result = expect_end_at_rest(1.0);
@@ -83,54 +83,54 @@ TEST_F(Standstill, FaultOfTheOnlyEpos) {
   EXPECT_FALSE(contains(result.text, "other joints")) << result.text;
 }
 
-TEST_F(Standstill, FaultOfTheOnlyCyclicDrive) {
+TEST_F(EndAtRest, FaultOfTheOnlyCyclicDrive) {
   set_out(arm_of(1, "{drives: {joint1: {type: cyclic}}}"));
   inject("joint1", "emcy 0x2310");
   const auto result = expect_end_at_rest(1.0);
   EXPECT_TRUE(contains(result.text, "0x2310")) << result.text;
 }
 
-TEST_F(Standstill, LostTargetPositionsOfTheOnlyCyclicDrive) {
+TEST_F(EndAtRest, LostTargetPositionsOfTheOnlyCyclicDrive) {
   set_out(arm_of(1, "{drives: {joint1: {type: cyclic}}}"));
   inject("can0", "drop_id 0x201 6");
   const auto result = expect_end_at_rest(1.0);
   EXPECT_TRUE(contains(result.text, "0x8700")) << result.text;
 }
 
-TEST_F(Standstill, FaultOfOneOfSeveralCyclicDrives) {
+TEST_F(EndAtRest, FaultOfOneOfSeveralCyclicDrives) {
   set_out(six_axis_cyclic());
   inject("joint2", "emcy 0x2310");
   expect_end_at_rest(1.0);
 }
 
 // Nobody sees or tells this drive: it plays on until it misses the host's heartbeat, and brakes then.
-TEST_F(Standstill, EposThatCannotBeHeard) {
+TEST_F(EndAtRest, EposThatCannotBeHeard) {
   set_out(arm_of(2));
   inject("joint1", "silence 1");
   const auto result = expect_end_at_rest(2.0);
   EXPECT_TRUE(contains(result.text, "Joint joint1")) << result.text;
 }
 
-TEST_F(Standstill, CyclicDriveThatCannotBeHeard) {
+TEST_F(EndAtRest, CyclicDriveThatCannotBeHeard) {
   set_out(six_axis_cyclic());
   inject("joint1", "silence 1");
   expect_end_at_rest(2.0);
 }
 
-TEST_F(Standstill, SilverlodeFaultFoundByTheHost) {
+TEST_F(EndAtRest, SilverlodeFaultFoundByTheHost) {
   set_out(six_axis_silverlode());
   inject("joint2", "nak 25 5 1000000");
   expect_end_at_rest(4.0);
 }
 
-TEST_F(Standstill, FaultInAGroupOfAllKinds) {
+TEST_F(EndAtRest, FaultInAGroupOfAllKinds) {
   set_out(six_axis_of_all_kinds(), kStillFed);
   inject("can0", "drop_id 0x203 1");
   expect_end_at_rest(5.0);
 }
 
 // A halt is under way when the fault comes: it ends the same way.
-TEST_F(Standstill, FaultWhileTheGroupBrakes) {
+TEST_F(EndAtRest, FaultWhileTheGroupBrakes) {
   set_out(arm_of(1));
   scenario->driver().halt(scenario->now());
   scenario->run(0.02);
@@ -138,7 +138,7 @@ TEST_F(Standstill, FaultWhileTheGroupBrakes) {
   expect_end_at_rest(1.0);
 }
 
-TEST_F(Standstill, FaultInAStream) {
+TEST_F(EndAtRest, FaultInAStream) {
   scenario = std::make_unique<Scenario>(arm_of(1));
   ASSERT_TRUE(scenario->run_until_state(GroupState::Idle)) << scenario->snapshot().fault;
   joints_ = 1;
