@@ -77,12 +77,14 @@ void Group::poll(HostTime now) {
       break;
     case GroupState::Idle:
     case GroupState::Disabled:
-      watch_for_faults();
+      if (faulted()) enter_fault();
       break;
     case GroupState::Fault:
+      if (disable_when_stopped_) poll_fault(now);
       break;
   }
-  requests_.settle(state_, fault_);
+  // Who asked in a fault for the other drives to be switched off is answered when they are.
+  if (state_ != GroupState::Fault || !disable_when_stopped_) requests_.settle(state_, fault_);
 }
 
 HostTime Group::next_deadline() const {
@@ -148,8 +150,10 @@ void Group::poll_stopping(HostTime now) {
   if (pending_) start_pending(now);
 }
 
-void Group::watch_for_faults() {
-  if (faulted()) enter_fault();
+void Group::poll_fault(HostTime now) {
+  if (any(AxisState::Ready)) start_disabling(now);
+  disable_when_stopped_ =
+      std::any_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_powered(*a); });
 }
 
 void Group::start_enabling(HostTime now) {
@@ -251,7 +255,7 @@ void Group::disable(const std::string& why, HostTime now) {
   if (std::none_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_powered(*a); })) return;
   disable_when_stopped_ = true;
   if (state_ == GroupState::Idle) start_disabling(now);
-  if (state_ != GroupState::Starting) enter(GroupState::Stopping);
+  if (state_ != GroupState::Starting && state_ != GroupState::Fault) enter(GroupState::Stopping);
 }
 
 bool Group::in_motion() const {

@@ -102,7 +102,10 @@ TEST_P(RequestOfArm, DisableInFaultSwitchesTheOtherDrivesOff) {
   ASSERT_TRUE(scenario.driver().inject("joint2", GetParam().fault, &reason, scenario.now())) << reason;
   ASSERT_TRUE(scenario.run_until_state(GroupState::Fault));
   ASSERT_FALSE(is_off(scenario, 0)) << "the others hold their positions until they are told otherwise";
-  const auto result = scenario.result_of_request(scenario.driver().enable(false, scenario.now()), 5.0);
+  const auto id = scenario.driver().enable(false, scenario.now());
+  for (int i = 0; i < 100; ++i, scenario.run(0.005))
+    ASSERT_EQ(scenario.state(), GroupState::Fault) << "only a reset ends a fault";
+  const auto result = scenario.result_of_request(id, 5.0);
   EXPECT_FALSE(result.success) << "one drive is in fault";
   EXPECT_NE(result.message.find("joint2"), std::string::npos) << result.message;
   EXPECT_EQ(scenario.state(), GroupState::Fault);

@@ -86,7 +86,7 @@ class Group {
   void poll_settling(HostTime now);
   void poll_streaming(HostTime now);
   void poll_stopping(HostTime now);
-  void watch_for_faults();
+  void poll_fault(HostTime now);
 
   void bring_up(HostTime now);
   void start_enabling(HostTime now);
