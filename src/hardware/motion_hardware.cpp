@@ -230,6 +230,11 @@ std::optional<Refusal> MotionHardware::write(HostTime now, HostDuration) {
 
 void MotionHardware::update(HostTime now) { implementation_->update(now); }
 
+void MotionHardware::stall(HostTime until) {
+  while (implementation_->assembly.emulates() && implementation_->now < until)
+    implementation_->now = implementation_->assembly.world().advance(until);
+}
+
 HostTime MotionHardware::next_deadline() const { return implementation_->next_deadline(); }
 
 const std::vector<JointHandle>& MotionHardware::joints() const { return implementation_->handles; }

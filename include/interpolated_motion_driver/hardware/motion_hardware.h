@@ -53,6 +53,9 @@ class MotionHardware {
   /// read() and write() at `now`; with emulated buses, everything since the last call happens at its own
   /// time.
   void update(HostTime now);
+  /// For tests: a host that is not there. Emulated buses and drives go on until `until` while nobody polls
+  /// the driver; without emulated buses nothing happens.
+  void stall(HostTime until);
   /// When update() should be called next at the latest.
   HostTime next_deadline() const;
 
