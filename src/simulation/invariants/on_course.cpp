@@ -1,0 +1,34 @@
+#include "simulation/invariants/on_course.h"
+
+#include <fmt/format.h>
+
+namespace interpolated_motion::simulation {
+
+namespace {
+
+/// Counts: a drive that has braked by itself stands between two counts and can tell whole ones only, from
+/// which the next path starts.
+constexpr double kSlack = 0.5;
+
+}  // namespace
+
+void OnCourse::goal_ended(const GoalEntry& goal) {
+  if (goal.result->outcome == motion::GoalOutcome::Succeeded && !goal.is_stop) ended_ = goal.result->id;
+}
+
+void OnCourse::look(const Look& look) {
+  if (ledger().is_disturbed() || ended_ == 0 || look.report == nullptr || !look.report->valid ||
+      look.report->goal != ended_)
+    return;
+  for (std::size_t i = 0; i < look.report->joints.size(); ++i) {
+    const motion::JointReport& report = look.report->joints[i];
+    const Joint& joint = arm().joints[i];
+    if (report.worst_deviation > joint.deviation_bound + kSlack)
+      fail(fmt::format("{} was {:.2f} counts off the path of goal {}, allowed {}", joint.label(),
+                       report.worst_deviation, ended_, joint.deviation_bound));
+    if (report.underruns > 0)
+      fail(fmt::format("{}: {} underruns in goal {}", joint.label(), report.underruns, ended_));
+  }
+}
+
+}  // namespace interpolated_motion::simulation

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "simulation/invariant.h"
+
+namespace interpolated_motion::simulation {
+
+/// Where nothing went wrong from outside, every drive sample of a goal that has succeeded was on its path
+/// within the deviation bound, by the driver's own report, and nothing ran dry or over.
+class OnCourse : public Invariant {
+ public:
+  explicit OnCourse(const Ledger& ledger) : Invariant(ledger) {}
+
+  std::string name() const override { return "on course"; }
+  void look(const Look& look) override;
+  void goal_ended(const GoalEntry& goal) override;
+
+ private:
+  motion::GoalId ended_ = 0;
+};
+
+}  // namespace interpolated_motion::simulation

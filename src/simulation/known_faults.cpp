@@ -1,0 +1,56 @@
+#include "simulation/known_faults.h"
+
+#include <algorithm>
+
+namespace interpolated_motion::simulation {
+
+namespace {
+
+bool fits(const KnownFault& fault, const Violation& violation) {
+  return fault.invariant == violation.invariant &&
+         std::all_of(fault.parts.begin(), fault.parts.end(), [&violation](const std::string& part) {
+           return violation.sentence.find(part) != std::string::npos;
+         });
+}
+
+}  // namespace
+
+const std::vector<KnownFault>& known_faults() {
+  static const std::vector<KnownFault> faults{
+      {"a bad goal is accepted in motion", "refused at once", {"a goal was accepted"}, "S8, issue 15"},
+      {"an accepted replacement is aborted",
+       "accepted is held",
+       {"The goal replaced another one"},
+       "S8, M1, issue 15"},
+      {"the desired position jumps when a motion is stopped",
+       "desired is smooth",
+       {"stopping"},
+       "S20, issue 15"},
+      {"a cyclic drive chases targets that were lost or late, and brakes without a certificate",
+       "limits",
+       {"(cyclic)", "rad/s"},
+       "S6, issue 14"},
+      {"jitter of SYNC is not in a cyclic drive's certificate",
+       "on course",
+       {"(cyclic)", "off the path"},
+       "P14"},
+      {"disabling while enabling is never answered",
+       "orders end once",
+       {"(disable) is not answered"},
+       "S2, issue 14"},
+      {"a FIFO that has run dry is published with 2^32 - 1 records",
+       "published is true",
+       {"(epos_ipm)", "records in a FIFO"},
+       "found by simulation, issue 14"},
+  };
+  return faults;
+}
+
+const KnownFault* find_known(const Violation& violation) {
+  const auto& faults = known_faults();
+  const auto found = std::find_if(faults.begin(), faults.end(),
+                                  [&violation](const KnownFault& fault) { return fits(fault, violation); });
+  return found == faults.end() ? nullptr : &*found;
+}
+
+}  // namespace interpolated_motion::simulation

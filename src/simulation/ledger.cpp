@@ -1,0 +1,123 @@
+#include "simulation/ledger.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace interpolated_motion::simulation {
+
+namespace {
+
+// s. A stop takes a braking of at most max_velocity / max_acceleration (0.7 s), the way of the order to the
+// drives, and the look whether they stand.
+constexpr double kStopping = 3.0;
+constexpr double kRequest = 3.0;
+/// What a fault may add: a drive that is away for up to 2 s and has to be configured anew, and repeats on its
+/// bus.
+constexpr double kDisturbed = 8.0;
+
+}  // namespace
+
+double Ledger::patience() const { return disturbed_ ? kDisturbed + arm_.commit_horizon : 0.0; }
+
+void Ledger::accept(motion::GoalId id, GoalEntry entry) {
+  entry.due += host_duration(patience());
+  goals_[id] = std::move(entry);
+}
+
+void Ledger::interrupt(const std::string& verb, HostTime now) {
+  for (auto& [id, goal] : goals_)
+    if (!goal.result) interrupt(id, verb, now);
+}
+
+void Ledger::interrupt(motion::GoalId id, const std::string& verb, HostTime now) {
+  const auto found = goals_.find(id);
+  if (found == goals_.end() || found->second.result || !found->second.ended_by.empty()) return;
+  found->second.ended_by = verb;
+  found->second.due = std::min(found->second.due, now + host_duration(kStopping + patience()));
+}
+
+void Ledger::request(motion::RequestId id, const std::string& verb, HostTime now) {
+  double time = kRequest + patience();
+  if (verb == "reset" || state_ == motion::GroupState::Starting) time += arm_.bring_up_timeout;
+  requests_[id] = {verb, now, now + host_duration(time), std::nullopt};
+}
+
+std::optional<std::string> Ledger::take(const motion::GoalResult& result) {
+  const auto found = goals_.find(result.id);
+  if (found == goals_.end()) return fmt::format("goal {} has ended, which was never accepted", result.id);
+  if (found->second.result) return fmt::format("goal {} has ended twice", result.id);
+  found->second.result = result;
+  return std::nullopt;
+}
+
+std::optional<std::string> Ledger::take(const motion::RequestResult& result) {
+  const auto found = requests_.find(result.id);
+  if (found == requests_.end()) return fmt::format("request {} is answered, which was never made", result.id);
+  if (found->second.result)
+    return fmt::format("request {} ({}) is answered twice", result.id, found->second.verb);
+  found->second.result = result;
+  return std::nullopt;
+}
+
+void Ledger::add_setpoint(HostTime now, bool accepted) {
+  if (!accepted) return;
+  ++setpoints_;
+  last_setpoint_ = now;
+}
+
+void Ledger::add_fault(HostTime now, std::string target, std::string command) {
+  faults_.push_back({now, std::move(target), std::move(command)});
+  disturb(now);
+}
+
+void Ledger::disturb(HostTime now) {
+  disturbed_ = true;
+  const HostTime due = now + host_duration(patience());
+  for (auto& [id, goal] : goals_) goal.due = std::max(goal.due, due);
+  for (auto& [id, request] : requests_) request.due = std::max(request.due, due);
+}
+
+void Ledger::add_absence(HostTime from, HostTime until) {
+  last_absence_ = until;
+  for (auto& [id, goal] : goals_) goal.due += until - from;
+  for (auto& [id, request] : requests_) request.due += until - from;
+  if (seconds(until - from) > arm_.tolerated_absence()) disturb(until);
+}
+
+void Ledger::enter(motion::GroupState state, HostTime now) {
+  former_state_ = state_;
+  state_ = state;
+  state_since_ = now;
+}
+
+bool Ledger::has_open_goal() const {
+  return std::any_of(goals_.begin(), goals_.end(), [](const auto& goal) { return !goal.second.result; });
+}
+
+bool Ledger::has_open_request() const {
+  return std::any_of(requests_.begin(), requests_.end(),
+                     [](const auto& request) { return !request.second.result; });
+}
+
+bool Ledger::is_touched(std::size_t joint, HostTime now, double within) const {
+  const Joint& about = arm_.joints[joint];
+  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultEntry& fault) {
+    return (fault.target == about.name || fault.target == about.bus) && seconds(now - fault.time) <= within;
+  });
+}
+
+bool Ledger::has_order_since(HostTime when) const {
+  if (last_setpoint_ >= when) return true;
+  return std::any_of(goals_.begin(), goals_.end(), [when](const auto& goal) {
+    return !goal.second.is_stop && goal.second.accepted >= when;
+  });
+}
+
+bool Ledger::has_request_since(const std::string& verb, HostTime when) const {
+  return std::any_of(requests_.begin(), requests_.end(), [&](const auto& request) {
+    return request.second.verb == verb && request.second.made >= when;
+  });
+}
+
+}  // namespace interpolated_motion::simulation

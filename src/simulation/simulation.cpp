@@ -1,0 +1,353 @@
+#include "simulation/simulation.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "simulation/goal_maker.h"
+#include "simulation/known_faults.h"
+
+namespace interpolated_motion::simulation {
+
+using motion::GroupState;
+
+namespace {
+
+constexpr HostDuration kLook = std::chrono::milliseconds(5);
+/// s: a drive boots within a second, and is asked anew until then.
+constexpr double kBootTime = 2.0;
+constexpr double kRestAtTheEnd = 2.0;  // s
+/// s: what a goal may take besides its duration: start lead, braking of what was under way, settling, the
+/// look for it.
+constexpr double kGoal = 3.0;
+constexpr double kLongest = 300.0;  // s of virtual time
+
+const char* name_of(motion::GoalOutcome outcome) {
+  switch (outcome) {
+    case motion::GoalOutcome::Succeeded:
+      return "succeeded";
+    case motion::GoalOutcome::Preempted:
+      return "preempted";
+    case motion::GoalOutcome::Aborted:
+      break;
+  }
+  return "aborted";
+}
+
+const char* why_bad(GoalDefect defect) {
+  switch (defect) {
+    case GoalDefect::BeyondLimit:
+      return "ends beyond a position limit";
+    case GoalDefect::StartElsewhere:
+      return "begins 1 rad from where the joint is";
+    case GoalDefect::EndsInMotion:
+      return "ends in motion";
+    case GoalDefect::NotANumber:
+      return "has a position that is not a number";
+    case GoalDefect::UnknownJoint:
+      return "names a joint that does not exist";
+    case GoalDefect::None:
+      break;
+  }
+  return "";
+}
+
+hardware::Configuration parse(const std::string& text) {
+  return hardware::parse_configuration(YAML::Load(text), robot_description());
+}
+
+}  // namespace
+
+Simulation::Simulation(const Script& script, Trace::Listener listener)
+    : script_(script),
+      ledger_(read_arm(script.configuration)),
+      invariants_(all_invariants(ledger_)),
+      trace_(std::move(listener)),
+      driver_(std::make_unique<hardware::MotionHardware>(parse(script.configuration), now_)),
+      positions_(ledger_.arm().joints.size()) {
+  driver_->set_sample_observer(
+      [this](std::size_t joint, const hardware::DemandSample& sample) { take_sample(joint, sample); });
+}
+
+Outcome Simulation::run() {
+  try {
+    run_script();
+  } catch (const std::exception& error) {
+    judge({"no exception", script_time(), error.what()});
+  }
+  outcome_.trace = trace_.hash();
+  outcome_.seconds = seconds(now_ - HostTime{});
+  return outcome_;
+}
+
+void Simulation::run_script() {
+  if (!script_.at_once) wait_until_ready();
+  origin_ = now_;
+  for (const Event& event : script_.events) {
+    advance_to(origin_ + host_duration(event.time));
+    if (is_over()) return;
+    look();
+    if (ledger_.is_dead()) break;
+    carry_out(event);
+  }
+  wait_for_the_end();
+}
+
+void Simulation::wait_until_ready() {
+  const auto is_ready = [this] {
+    const GroupState state = ledger_.state();
+    return now_ > HostTime{} && state != GroupState::Starting && state != GroupState::Enabling;
+  };
+  const HostTime end = now_ + host_duration(ledger_.arm().bring_up_timeout + kBootTime);
+  while (!is_ready() && now_ < end && !is_over()) run_for(0.01);
+}
+
+void Simulation::wait_for_the_end() {
+  if (ledger_.is_dead()) return run_for(kRestAtTheEnd + ledger_.arm().commit_horizon + kRestAtTheEnd);
+  const HostTime end = now_ + host_duration(kLongest);
+  const auto is_open = [this] {
+    return ledger_.has_open_goal() || ledger_.has_open_request() || !setpoints_.empty() ||
+           ledger_.state() == GroupState::Streaming;
+  };
+  while (is_open() && now_ < end && !is_over()) run_for(0.05);
+  if (is_open() && !is_over())
+    judge({"orders end once", script_time(), fmt::format("the script is not over after {} s", kLongest)});
+  if (!is_over()) run_for(kRestAtTheEnd);
+}
+
+void Simulation::run_for(double duration) { advance_to(now_ + host_duration(duration)); }
+
+void Simulation::advance_to(HostTime time) {
+  while (now_ < time && !is_over()) {
+    HostTime next = std::min(time, next_look_);
+    if (!setpoints_.empty() && host_is_there_)
+      next = std::min(next, std::max(now_, setpoints_.front().arrives));
+    step(next);
+    if (now_ < next_look_) continue;
+    next_look_ = now_ + kLook;
+    look();
+  }
+}
+
+void Simulation::step(HostTime time) {
+  if (time > now_) {
+    now_ = time;
+    if (host_is_there_) {
+      driver_->update(now_);
+    } else {
+      driver_->stall(now_);
+    }
+  }
+  if (host_is_there_) deliver_setpoints();
+}
+
+void Simulation::deliver_setpoints() {
+  while (!setpoints_.empty() && setpoints_.front().arrives <= now_) {
+    const auto refusal = driver_->setpoint(setpoints_.front().setpoint, now_);
+    setpoints_.pop_front();
+    ledger_.add_setpoint(now_, !refusal);
+    if (refusal) say("setpoint refused: " + refusal->text);
+  }
+}
+
+void Simulation::carry_out(const Event& event) {
+  say("> " + to_text(event));
+  if (event.verb == "goal") return submit(event);
+  if (event.verb == "stop") return submit_stop();
+  if (event.verb == "late") return be_late(event.number("for"));
+  if (event.verb == "inject") return inject(event);
+  if (event.verb == "stream") {
+    setpoints_ = make_stream(event, ledger_.arm(), positions_, now_);
+  } else if (event.verb == "cancel") {
+    if (ledger_.goals().empty()) return;
+    const motion::GoalId newest = ledger_.goals().rbegin()->first;
+    ledger_.interrupt(newest, event.verb, now_);
+    driver_->cancel(newest, now_);
+  } else if (event.verb == "die") {
+    ledger_.die(now_);
+    host_is_there_ = false;
+  } else {
+    carry_out_request(event.verb);
+  }
+}
+
+void Simulation::carry_out_request(const std::string& verb) {
+  if (verb == "enable") return ledger_.request(driver_->enable(true, now_), verb, now_);
+  if (verb == "reset") return ledger_.request(driver_->reset_faults(now_), verb, now_);
+  ledger_.interrupt(verb, now_);
+  if (verb == "disable") return ledger_.request(driver_->enable(false, now_), verb, now_);
+  if (verb == "halt") return ledger_.request(driver_->halt(now_), verb, now_);
+  if (verb == "clear") return ledger_.request(driver_->clear_buffers(now_), verb, now_);
+  throw std::invalid_argument(fmt::format("\"{}\" is no verb", verb));
+}
+
+void Simulation::submit(const Event& event) {
+  std::vector<double> present;
+  for (const auto& joint : snapshot_.joints) present.push_back(joint.actual.position);
+  const trajectory::Goal goal = make_goal(event, ledger_.arm(), present, now_);
+  const auto answer = driver_->submit(goal, now_);
+  if (!answer) {
+    ++outcome_.goals_refused;
+    return say("refused: " + answer.error().text);
+  }
+  say(fmt::format("goal {} accepted, {:.3f} s", answer.value().id, answer.value().duration.count()));
+  accept(event, goal, answer.value());
+}
+
+void Simulation::accept(const Event& event, const trajectory::Goal& goal,
+                        const motion::GoalAcceptance& acceptance) {
+  ++outcome_.goals_accepted;
+  const GoalDefect defect = defect_of(event);
+  if (defect != GoalDefect::None)
+    for (const auto& invariant : invariants_) invariant->wrongly_accepted(why_bad(defect));
+  GoalEntry entry;
+  entry.met_motion = ledger_.has_open_goal() || !is_at_rest(snapshot_.state);
+  ledger_.interrupt("goal", now_);
+  const double wait = goal.start ? std::max(0.0, seconds(*goal.start - now_)) : 0.0;
+  entry.accepted = now_;
+  entry.due = now_ + host_duration(wait + acceptance.duration.count() + ledger_.arm().settle_time + kGoal);
+  for (std::size_t j = 0; j < goal.joint_names.size(); ++j)
+    entry.target.emplace_back(j, goal.points.back().positions[j]);
+  ledger_.accept(acceptance.id, std::move(entry));
+}
+
+void Simulation::submit_stop() {
+  const auto answer = driver_->submit(make_stop(ledger_.arm()), now_);
+  if (!answer) return say("refused: " + answer.error().text);
+  GoalEntry entry;
+  entry.accepted = now_;
+  entry.is_stop = true;
+  entry.due = now_ + host_duration(kGoal);
+  ledger_.interrupt("stop", now_);
+  ledger_.accept(answer.value().id, std::move(entry));
+}
+
+void Simulation::be_late(double duration) {
+  const HostTime end = now_ + host_duration(duration);
+  ledger_.add_absence(now_, end);
+  host_is_there_ = false;
+  advance_to(end);
+  host_is_there_ = true;
+}
+
+void Simulation::inject(const Event& event) {
+  std::string reason;
+  if (!driver_->inject(event.target, event.command, &reason, now_)) return say("not injected: " + reason);
+  ledger_.add_fault(now_, event.target, event.command);
+}
+
+void Simulation::look() {
+  if (host_is_there_) driver_->snapshot(snapshot_);
+  take_positions();
+  take_log();
+  take_results();
+  take_request_results();
+  follow_state();
+  Look seen;
+  seen.now = now_;
+  seen.snapshot = &snapshot_;
+  seen.positions = &positions_;
+  seen.is_host_there = host_is_there_;
+  seen.log_lines = std::exchange(log_lines_, 0);
+  seen.report = report_ ? &*report_ : nullptr;
+  for (const auto& invariant : invariants_) invariant->look(seen);
+  report_.reset();
+  find_violation();
+}
+
+void Simulation::follow_state() {
+  if (snapshot_.state == ledger_.state()) return;
+  say(fmt::format("group: {} -> {}{}{}", motion::to_string(ledger_.state()),
+                  motion::to_string(snapshot_.state), snapshot_.fault.empty() ? "" : ": ", snapshot_.fault));
+  ledger_.enter(snapshot_.state, now_);
+  for (const auto& invariant : invariants_) invariant->state_change(now_);
+}
+
+void Simulation::take_results() {
+  while (const auto result = driver_->take_goal_result()) {
+    say(fmt::format("goal {} {}: {}", result->id, name_of(result->outcome), result->text));
+    if (result->outcome == motion::GoalOutcome::Succeeded) ++outcome_.goals_succeeded;
+    const auto wrong = ledger_.take(*result);
+    for (const auto& invariant : invariants_) {
+      if (wrong) {
+        invariant->wrong_answer(*wrong);
+      } else {
+        invariant->goal_ended(ledger_.goals().at(result->id));
+      }
+    }
+    report_ = driver_->report();
+  }
+}
+
+void Simulation::take_request_results() {
+  while (const auto result = driver_->take_request_result()) {
+    say(fmt::format("request {} {}: {}", result->id, result->success ? "done" : "failed", result->message));
+    const auto wrong = ledger_.take(*result);
+    for (const auto& invariant : invariants_) {
+      if (wrong) {
+        invariant->wrong_answer(*wrong);
+      } else {
+        invariant->request_ended(ledger_.requests().at(result->id));
+      }
+    }
+  }
+}
+
+void Simulation::take_log() {
+  while (const auto entry = driver_->take_log()) {
+    ++log_lines_;
+    say("log: " + entry->text);
+  }
+}
+
+void Simulation::take_sample(std::size_t joint, const hardware::DemandSample& sample) {
+  trace_.add(static_cast<std::uint64_t>(sample.time.time_since_epoch().count()));
+  trace_.add(sample.demand);
+  const Sample seen{sample.time, joint, ledger_.arm().joints[joint].position(sample.demand)};
+  for (const auto& invariant : invariants_) invariant->sample(seen);
+}
+
+void Simulation::take_positions() {
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    positions_[i] = driver_->emulated_position(i).value_or(0.0);
+    trace_.add(positions_[i]);
+  }
+}
+
+void Simulation::find_violation() {
+  for (const auto& invariant : invariants_) {
+    if (is_over() || !invariant->violation()) continue;
+    judge({invariant->name(), script_time(), *invariant->violation()});
+    if (!is_over()) invariant->forget();
+  }
+}
+
+/// A known fault is noted, and the simulation goes on: what else goes wrong is to be seen.
+void Simulation::judge(const Violation& violation) {
+  const KnownFault* known = find_known(violation);
+  if (known == nullptr) {
+    outcome_.violation = violation;
+    return say("VIOLATED: " + violation.invariant + ": " + violation.sentence);
+  }
+  if (outcome_.known.emplace(known->name, violation).second)
+    say("known: " + known->name + ": " + violation.sentence);
+}
+
+void Simulation::say(const std::string& line) { trace_.say(script_time(), line); }
+
+double Simulation::script_time() const { return seconds(now_ - origin_); }
+
+Outcome simulate(const Script& script, Trace::Listener listener) {
+  try {
+    return Simulation(script, std::move(listener)).run();
+  } catch (const std::exception& error) {
+    Outcome outcome;
+    outcome.violation = {"no exception", 0.0, error.what()};
+    return outcome;
+  }
+}
+
+}  // namespace interpolated_motion::simulation
