@@ -96,6 +96,12 @@ void OptionSet::add_whole_number(const Option& option, Range allowed, int& targe
       [&target, allowed](const auto& name, const auto& text) { target = whole_number(name, text, allowed); });
 }
 
+void OptionSet::add_switch(const std::string& name, const std::string& meaning, bool& target) {
+  auto* value = po::bool_switch()->notifier([&target](bool given) { target = target || given; });
+  options_.add_options()(name.c_str(), value, meaning.c_str());
+  names_.push_back("--" + name);
+}
+
 void OptionSet::add_numbers(const Option& option, Range allowed, std::vector<double>& target) {
   add(option, [&target, allowed](const auto& name, const auto& list) {
     target.clear();
@@ -123,7 +129,7 @@ bool OptionSet::parse(const std::vector<std::string>& arguments) const {
   for (const po::option& option : found.options) {
     if (option.string_key == kHelp) return false;
     if (option.unregistered || option.position_key >= 0) refuse_unknown(option.original_tokens.front());
-    refuse_missing_value(option);
+    if (!option.value.empty()) refuse_missing_value(option);
   }
   po::variables_map values;
   try {

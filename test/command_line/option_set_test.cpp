@@ -18,6 +18,7 @@ class OptionSetTest : public testing::Test {
     options_.add_number({"timeout", "SECONDS", "s (default: 3)"}, {-5.0, 5.0}, number_);
     options_.add_whole_number({"bitrate", "BIT/S", "bit/s"}, {0.0, 1e6}, whole_);
     options_.add_numbers({"clock-error-ppm", "PPM", "of each"}, {-100.0, 100.0}, numbers_);
+    options_.add_switch("each", "tells of each", switch_);
     options_.add_whole_numbers({"epos", "NODES", "node ids"}, {1.0, 127.0}, wholes_);
   }
 
@@ -36,6 +37,7 @@ class OptionSetTest : public testing::Test {
   std::string text_ = "before";
   double number_ = 3.0;
   int whole_ = 7;
+  bool switch_ = false;
   std::vector<double> numbers_;
   std::vector<int> wholes_;
 };
@@ -45,6 +47,16 @@ TEST_F(OptionSetTest, NothingGivenKeepsTheDefaults) {
   EXPECT_EQ(text_, "before");
   EXPECT_EQ(number_, 3.0);
   EXPECT_EQ(whole_, 7);
+}
+
+TEST_F(OptionSetTest, ASwitchHasNoValue) {
+  EXPECT_TRUE(parse({}));
+  EXPECT_FALSE(switch_);
+  EXPECT_TRUE(parse({"--each", "--bitrate", "8"}));
+  EXPECT_TRUE(switch_);
+  EXPECT_EQ(whole_, 8);
+  EXPECT_NE(refusal({"--each=1"}), "accepted");
+  EXPECT_NE(refusal({"--each", "1"}), "accepted");
 }
 
 TEST_F(OptionSetTest, ValuesFollowABlankOrAnEqualsSign) {

@@ -35,6 +35,9 @@ class OptionSet {
   void add_number(const Option& option, Range allowed, double& target);
   void add_whole_number(const Option& option, Range allowed, int& target);
 
+  /// `--name` alone: true where it is given.
+  void add_switch(const std::string& name, const std::string& meaning, bool& target);
+
   /// Lists: numbers with commas between them, one at least, each within `allowed`.
   void add_numbers(const Option& option, Range allowed, std::vector<double>& target);
   void add_whole_numbers(const Option& option, Range allowed, std::vector<int>& target);
