@@ -15,6 +15,8 @@ constexpr double kRequest = 3.0;
 /// What a fault may add: a drive that is away for up to 2 s and has to be configured anew, and repeats on its
 /// bus.
 constexpr double kDisturbed = 8.0;
+/// Until an answer that is overdue has been noticed.
+constexpr HostDuration kUntilNoticed = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -95,9 +97,10 @@ bool Ledger::has_open_goal() const {
   return std::any_of(goals_.begin(), goals_.end(), [](const auto& goal) { return !goal.second.result; });
 }
 
-bool Ledger::has_open_request() const {
-  return std::any_of(requests_.begin(), requests_.end(),
-                     [](const auto& request) { return !request.second.result; });
+bool Ledger::has_open_request(HostTime now) const {
+  return std::any_of(requests_.begin(), requests_.end(), [now](const auto& request) {
+    return !request.second.result && now < request.second.due + kUntilNoticed;
+  });
 }
 
 bool Ledger::is_touched(std::size_t joint, HostTime now, double within) const {

@@ -76,7 +76,8 @@ class Ledger {
   HostTime died() const { return died_; }
 
   bool has_open_goal() const;
-  bool has_open_request() const;
+  /// A request that may still be answered in time.
+  bool has_open_request(HostTime now) const;
   /// Something went wrong from outside: a fault, or the host was away for longer than must go unnoticed.
   bool is_disturbed() const { return disturbed_; }
   /// The joint or its bus had a fault within the last `within` s; ever, when nothing is given.

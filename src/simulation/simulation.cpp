@@ -109,7 +109,7 @@ void Simulation::wait_for_the_end() {
   if (ledger_.is_dead()) return run_for(kRestAtTheEnd + ledger_.arm().commit_horizon + kRestAtTheEnd);
   const HostTime end = now_ + host_duration(kLongest);
   const auto is_open = [this] {
-    return ledger_.has_open_goal() || ledger_.has_open_request() || !setpoints_.empty() ||
+    return ledger_.has_open_goal() || ledger_.has_open_request(now_) || !setpoints_.empty() ||
            ledger_.state() == GroupState::Streaming;
   };
   while (is_open() && now_ < end && !is_over()) run_for(0.05);

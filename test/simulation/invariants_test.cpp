@@ -124,9 +124,9 @@ TEST_F(WrongThing, DemandThatJerks) {
 
 TEST_F(WrongThing, AJointThatBrakesTooHard) {
   enter(GroupState::Stopping, 0.0);
-  for (int i = 0; i < 5; ++i) look_at(0.01 * i, 1e-2 * i);
+  for (int i = 0; i < 12; ++i) look_at(0.01 * i, 2e-2 * i);
   EXPECT_EQ(violated(), Names{});
-  for (int i = 5; i < 8; ++i) look_at(0.01 * i, 4e-2);
+  for (int i = 12; i < 22; ++i) look_at(0.01 * i, 22e-2);
   EXPECT_EQ(violated(), Names{"braking"});
 }
 
