@@ -38,14 +38,6 @@ const std::vector<KnownFault>& known_faults() {
        "on course",
        {"(cyclic)", "off the path"},
        "P14"},
-      {"disabling while enabling is never answered",
-       "orders end once",
-       {"(disable) is not answered"},
-       "S2, issue 14"},
-      {"a FIFO that has run dry is published with 2^32 - 1 records",
-       "published is true",
-       {"(epos_ipm)", "records in a FIFO"},
-       "found by simulation, issue 14"},
   };
   return faults;
 }
