@@ -186,6 +186,7 @@ void Group::enter(GroupState state) {
 void Group::enter_rest_state(HostTime now) {
   enter(all(AxisState::Ready) ? GroupState::Idle : GroupState::Disabled);
   in_force_since_ = state_ == GroupState::Idle ? now : kNever;
+  requests_.settle(state_, fault_);  // before a goal that waits for this rest begins
 }
 
 void Group::enter_fault() {
@@ -239,6 +240,8 @@ RequestId Group::request(RequestKind kind, HostTime now) {
       halt(now, "stopped by a call of ~clear_buffers");
       break;
   }
+  // What is so already is said before the next order changes it.
+  if (!disable_when_stopped_) requests_.settle(state_, fault_);
   return id;
 }
 

@@ -40,7 +40,7 @@ YAML::Node random_line(Random& random) {
   return bus;
 }
 
-void set_epos_unknowns(Random& random, YAML::Node emulation) {
+void set_epos_unknowns(Random& random, const YAML::Node& emulation) {
   maybe(random, emulation, "clock_discipline", random.chance(0.5));
   maybe(random, emulation, "limits_scale_with_notation", random.chance(0.5));
   maybe(random, emulation, "limit_ranges_scale_with_notation", random.chance(0.5));
@@ -62,7 +62,7 @@ void set_integration(Random& random, YAML::Node drive, YAML::Node emulation) {
   drive["position_lag"] = way == 1 ? 0 : 1;
 }
 
-void set_silverlode_unknowns(Random& random, YAML::Node drive, YAML::Node emulation) {
+void set_silverlode_unknowns(Random& random, const YAML::Node& drive, const YAML::Node& emulation) {
   maybe(random, emulation, "queue_depth", random.pick({4, 8}));
   maybe(random, emulation, "multi_register_read", random.chance(0.5));
   maybe(random, emulation, "ims_arguments", random.pick({-1, 2}));
@@ -74,7 +74,7 @@ void set_silverlode_unknowns(Random& random, YAML::Node drive, YAML::Node emulat
   set_integration(random, drive, emulation);
 }
 
-void set_cyclic_unknowns(Random& random, YAML::Node drive, YAML::Node emulation) {
+void set_cyclic_unknowns(Random& random, const YAML::Node& drive, const YAML::Node& emulation) {
   maybe(random, drive, "interpolation_order", random.whole(1, 3));
   maybe(random, emulation, "sync_gain", random.pick({0.05, 0.5}));
   maybe(random, emulation, "ride_through", random.pick({2, 5}));
@@ -132,7 +132,7 @@ int random_size(Random& random, const std::string& kind, std::size_t types) {
 std::string bus_for(Random& random, YAML::Node buses, const std::string& type, int index, bool two_buses) {
   const bool is_serial = type == "silverlode_ims";
   const int which = is_serial ? index / 3 : two_buses ? index % 2 : 0;
-  const std::string name = fmt::format("{}{}", is_serial ? "line" : "can", which);
+  std::string name = fmt::format("{}{}", is_serial ? "line" : "can", which);
   if (!buses[name]) buses[name] = is_serial ? random_line(random) : random_can_bus(random);
   return name;
 }
@@ -153,7 +153,7 @@ YAML::Node draw(Random& random, const std::string& kind) {
   YAML::Node buses(YAML::NodeType::Map);
   int serial_drives = 0;
   for (int i = 0; i < size; ++i) {
-    const std::string type = types[static_cast<std::size_t>(i) % types.size()];
+    const std::string& type = types[static_cast<std::size_t>(i) % types.size()];
     const int index = type == "silverlode_ims" ? serial_drives++ : i;
     const std::string joint = fmt::format("joint{}", i + 1);
     const std::string bus = bus_for(random, buses, type, index, two_buses);
@@ -183,7 +183,7 @@ const std::vector<std::string>& arm_kinds() {
 
 std::string random_arm(Random& random, const std::string& kind) {
   for (int i = 0; i < kAttempts; ++i) {
-    const std::string text = yaml_line(draw(random, kind));
+    std::string text = yaml_line(draw(random, kind));
     if (is_taken(text)) return text;
   }
   throw std::logic_error("no random arm of kind " + kind + " is taken by the driver");

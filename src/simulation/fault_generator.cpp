@@ -127,14 +127,13 @@ void add_recovery(Random& random, double time, Script& script) {
 
 void add_random_fault(Random& random, const Arm& arm, const FaultKinds& kinds, double time, Script& script) {
   const int which = random.whole(0, 2);
-  if (which == 0 && kinds.host) {
+  const bool of_host = (which == 0 && kinds.host) || (!kinds.drives && !kinds.buses);
+  if (of_host) {
     add_host_fault(random, time, script);
   } else if (kinds.drives && (which == 1 || !kinds.buses)) {
     add_drive_fault(random, arm, time, script);
-  } else if (kinds.buses) {
-    add_bus_fault(random, arm, time, script);
   } else {
-    add_host_fault(random, time, script);
+    add_bus_fault(random, arm, time, script);
   }
   if (random.chance(0.8)) add_recovery(random, time, script);
 }

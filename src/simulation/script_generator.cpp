@@ -113,7 +113,7 @@ Script random_script(std::uint64_t seed, const std::string& kind) {
   Random random(seed);
   Script script;
   const auto& kinds = arm_kinds();
-  const std::string drawn = kinds[random.next() % kinds.size()];
+  const std::string& drawn = kinds[random.next() % kinds.size()];
   script.configuration = random_arm(random, kind.empty() ? drawn : kind);
   script.at_once = random.chance(0.1);
   add_events(random, read_arm(script.configuration), script);

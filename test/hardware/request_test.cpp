@@ -95,6 +95,29 @@ TEST_P(RequestOfArm, EnableInMotionIsAnsweredAtOnceAndChangesNothing) {
   EXPECT_EQ(scenario.result_of(goal).outcome, GoalOutcome::Succeeded);
 }
 
+// A halt is answered when the group rests, though a goal that waited for that begins at once.
+TEST_P(RequestOfArm, HaltWhileStoppingIsAnsweredBeforeTheNextGoal) {
+  Scenario scenario(GetParam().parameters(""));
+  start_moving(scenario);
+  const auto clear = scenario.driver().clear_buffers(scenario.now());
+  const auto halt = scenario.driver().halt(scenario.now());
+  const auto accepted = scenario.submit(make_goal({10.0}, {kTarget}));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  EXPECT_TRUE(scenario.result_of_request(clear, 1.5).success);
+  EXPECT_TRUE(scenario.result_of_request(halt, 0.1).success);
+  EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, GoalOutcome::Succeeded);
+}
+
+TEST_P(RequestOfArm, DisableAndEnableAtOneInstantAreBothAnswered) {
+  Scenario scenario(switched_off());
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Disabled));
+  const auto off = scenario.driver().enable(false, scenario.now());
+  const auto on = scenario.driver().enable(true, scenario.now());
+  EXPECT_TRUE(scenario.result_of_request(off, 0.1).success);
+  EXPECT_TRUE(scenario.result_of_request(on, 5.0).success);
+  EXPECT_EQ(scenario.state(), GroupState::Idle);
+}
+
 TEST_P(RequestOfArm, DisableInFaultSwitchesTheOtherDrivesOff) {
   Scenario scenario(GetParam().parameters(""));
   start_moving(scenario);
@@ -109,7 +132,7 @@ TEST_P(RequestOfArm, DisableInFaultSwitchesTheOtherDrivesOff) {
   EXPECT_FALSE(result.success) << "one drive is in fault";
   EXPECT_NE(result.message.find("joint2"), std::string::npos) << result.message;
   EXPECT_EQ(scenario.state(), GroupState::Fault);
-  for (const std::size_t joint : {0, 2, 3, 4, 5})
+  for (const std::size_t joint : {0U, 2U, 3U, 4U, 5U})
     EXPECT_TRUE(is_off(scenario, joint)) << "joint" << joint + 1;
 }
 
