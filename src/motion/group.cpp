@@ -147,6 +147,7 @@ void Group::poll_stopping(HostTime now) {
   }
   enter_rest_state(now);
   finish_stop_goals();
+  requests_.settle(state_, fault_);  // before a goal that has waited for this rest begins
   if (pending_) start_pending(now);
 }
 
@@ -186,7 +187,6 @@ void Group::enter(GroupState state) {
 void Group::enter_rest_state(HostTime now) {
   enter(all(AxisState::Ready) ? GroupState::Idle : GroupState::Disabled);
   in_force_since_ = state_ == GroupState::Idle ? now : kNever;
-  requests_.settle(state_, fault_);  // before a goal that waits for this rest begins
 }
 
 void Group::enter_fault() {

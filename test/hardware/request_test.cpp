@@ -79,6 +79,16 @@ TEST_P(RequestOfArm, DisableWhileTheDrivesAreBeingFoundEndsSwitchedOff) {
   expect_all_off(scenario);
 }
 
+TEST_P(RequestOfArm, EnableWhileTheDrivesAreBeingFoundIsAnsweredWhenTheyAreOn) {
+  Scenario scenario(switched_off());
+  scenario.run(0.05);
+  ASSERT_EQ(scenario.state(), GroupState::Starting);
+  const auto on = scenario.driver().enable(true, scenario.now());
+  const auto result = scenario.result_of_request(on, 10.0);
+  EXPECT_TRUE(result.success) << result.message;
+  EXPECT_EQ(scenario.state(), GroupState::Idle);
+}
+
 TEST_P(RequestOfArm, ResetInMotionIsAnsweredAtOnceAndChangesNothing) {
   Scenario scenario(GetParam().parameters(""));
   const auto goal = start_moving(scenario);
