@@ -9,6 +9,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "lib"))
+import class_gate  # noqa: E402
 import class_sizes  # noqa: E402
 from cpp_tokens import Unreadable  # noqa: E402
 
@@ -136,16 +137,16 @@ def of(functions, members, name="a::C"):
 
 
 def test_the_gate_is_40_functions_and_20_members():
-    assert class_sizes.complaints_about([of(40, 20)], {}) == []
-    assert len(class_sizes.complaints_about([of(41, 0)], {})) == 1
-    assert class_sizes.complaints_about([of(0, 21)], {}) == [
+    assert class_gate.complaints_about([of(40, 20)], {}) == []
+    assert len(class_gate.complaints_about([of(41, 0)], {})) == 1
+    assert class_gate.complaints_about([of(0, 21)], {}) == [
         "src/a/c.h:7: a::C has 0 functions and 21 data members; at most 40 and 20 are allowed: cut it"]
 
 
 def test_a_listed_class_may_be_as_large_as_its_line_says_and_no_larger():
-    assert class_sizes.complaints_about([of(50, 10)], {"a::C": (50, 10)}) == []
-    assert len(class_sizes.complaints_about([of(51, 10)], {"a::C": (50, 10)})) == 1
-    assert len(class_sizes.complaints_about([of(50, 21)], {"a::C": (50, 10)})) == 1
+    assert class_gate.complaints_about([of(50, 10)], {"a::C": (50, 10)}) == []
+    assert len(class_gate.complaints_about([of(51, 10)], {"a::C": (50, 10)})) == 1
+    assert len(class_gate.complaints_about([of(50, 21)], {"a::C": (50, 10)})) == 1
 
 
 @pytest.mark.parametrize("now, word", [
@@ -157,11 +158,11 @@ def test_a_listed_class_may_be_as_large_as_its_line_says_and_no_larger():
     ([of(60, 30, "b::C")], "is gone: remove"),
 ])
 def test_a_line_larger_than_its_class_is_an_error(now, word):
-    assert any(word in complaint for complaint in class_sizes.complaints_about(now, {"a::C": (50, 25)}))
+    assert any(word in complaint for complaint in class_gate.complaints_about(now, {"a::C": (50, 25)}))
 
 
 def test_the_list_is_read_without_its_comments():
-    assert class_sizes.read_exceptions("# all\n\na::C 50 10  # why\nb::D::E 1 30\n") == {"a::C": (50, 10), "b::D::E": (1, 30)}
+    assert class_gate.read_exceptions("# all\n\na::C 50 10  # why\nb::D::E 1 30\n") == {"a::C": (50, 10), "b::D::E": (1, 30)}
 
 
 def make_tree(tmp_path, text, exceptions=""):
@@ -175,7 +176,7 @@ def make_tree(tmp_path, text, exceptions=""):
 def test_the_check_prints_the_largest_classes_and_passes_a_clean_tree(tmp_path):
     tree = make_tree(tmp_path, "namespace interpolated_motion::a { struct C { int x; void f(); }; struct D { int y, z; }; }")
     out = io.StringIO()
-    assert class_sizes.check(tree, out)
+    assert class_gate.check(tree, out)
     assert out.getvalue().splitlines()[1:3] == ["        0       2  a::D  (src/a/c.cpp:1)", "        1       1  a::C  (src/a/c.cpp:1)"]
 
 
@@ -186,7 +187,7 @@ def test_the_check_prints_the_largest_classes_and_passes_a_clean_tree(tmp_path):
     ("", ""),
 ])
 def test_the_check_fails_a_tree_with_a_large_class_a_stale_line_an_unreadable_file_or_nothing(tmp_path, text, exceptions):
-    assert not class_sizes.check(make_tree(tmp_path, text, exceptions), io.StringIO())
+    assert not class_gate.check(make_tree(tmp_path, text, exceptions), io.StringIO())
 
 
 def test_scripts_lint_runs_it():
