@@ -212,8 +212,7 @@ std::optional<Refusal> MotionHardware::Implementation::take_commands(HostTime ti
   return group->setpoint(setpoint, time);
 }
 
-// ---- the interface
-// -------------------------------------------------------------------------------------------------
+// The interface.
 
 MotionHardware::MotionHardware(const Configuration& configuration, HostTime now, EventLoop loop)
     : implementation_(std::make_unique<Implementation>(configuration, now, std::move(loop))) {}

@@ -32,7 +32,7 @@ Cia402PowerStage::Cia402PowerStage(const Cia402Settings& settings, Cia402Device&
       sequence_(node),
       controlword_(master, node, settings_.controlword_rpdo) {}
 
-// ---- polling
+// Polling.
 
 void Cia402PowerStage::listen(HostTime now) {
   collect_emergencies();
@@ -57,7 +57,7 @@ void Cia402PowerStage::poll_stage(HostTime now) {
   }
 }
 
-// ---- bring-up
+// Bring-up.
 
 void Cia402PowerStage::probe(HostTime now) {
   node_.send_nmt(canopen::NmtCommand::EnterPreOperational);
@@ -99,7 +99,7 @@ void Cia402PowerStage::poll_reports(HostTime now) {
   enter(faulted ? Stage::Resetting : Stage::Disabling, now);
 }
 
-// ---- power stage
+// Power stage.
 
 void Cia402PowerStage::enable(HostTime now) {
   if (stage() != Stage::Disabled) return;
@@ -187,7 +187,7 @@ bool Cia402PowerStage::sequence_done(HostTime now) {
   return sequence_.state() == SdoSequence::State::Done;
 }
 
-// ---- watching
+// Watching.
 
 void Cia402PowerStage::collect_emergencies() {
   while (auto emcy = node_.take_emcy()) {
@@ -233,7 +233,7 @@ std::string Cia402PowerStage::drive_fault() const {
   return text + device_.fault_detail();
 }
 
-// ---- a fault in motion
+// A fault in motion.
 
 bool Cia402PowerStage::is_powered() const {
   const cia402::State state = drive_state();

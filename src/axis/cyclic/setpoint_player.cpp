@@ -23,7 +23,7 @@ constexpr int kRideThrough = 10;
 
 }  // namespace
 
-// ---- for the power stage
+// For the power stage.
 
 void SetpointPlayer::begin(HostTime now) {
   rest_counts_ = drive_.enabled_at();
@@ -111,7 +111,7 @@ void SetpointPlayer::send_target() {
   ++(taken ? sent_ : refused_);
 }
 
-// ---- a goal's way
+// A goal's way.
 
 encoding::SetpointEncoding SetpointPlayer::encoding() const {
   const CyclicAxisParameters& parameters = drive_.parameters();
@@ -200,7 +200,7 @@ void SetpointPlayer::come_to_rest(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// ---- a path that is still being made
+// A path that is still being made.
 
 std::optional<Refusal> SetpointPlayer::plan_stream(HostTime origin, GoalTime rest) {
   planned_ = trajectory::with_rest(trajectory::Path(rest_position()), rest);
@@ -227,7 +227,7 @@ void SetpointPlayer::follow() {
   drive_.setpoints().follow(path_, begin_);
 }
 
-// ---- results
+// Results.
 
 HostTime SetpointPlayer::path_begin() const {
   return begin_ == kNever ? kNever : begin_ + host_duration(drive_.master().sync_timing().delay());

@@ -29,8 +29,7 @@ using namespace sdo_steps;
 
 constexpr int kFinestVelocityNotation = -3;
 
-// ---- identity
-// ------------------------------------------------------------------------------------------------------
+// Identity.
 
 Step read_vendor(EposFacts& facts) {
   return SdoSequence::read(object::kVendorId, [&facts](const SdoResult& r) -> Failure {
@@ -43,8 +42,7 @@ Step read_vendor(EposFacts& facts) {
   });
 }
 
-// ---- what the driver relies on
-// -------------------------------------------------------------------------------------
+// What the driver relies on.
 
 /// Without these objects a drive has no Interpolated Position Mode, and is refused by its name.
 Step require_interpolation_object(canopen::ObjectAddress address, EposFacts& facts) {
@@ -94,8 +92,7 @@ Steps verification(EposFacts& facts) {
                         "acceleration dimension, 0xA4 is rpm/s")};
 }
 
-// ---- limits and units
-// ----------------------------------------------------------------------------------------------
+// Limits and units.
 
 struct VelocityUnitSearch {
   const EposAxisParameters& parameters;
@@ -186,8 +183,7 @@ Steps supervision(const EposAxisParameters& parameters) {
           write_u32(object::kMaxFollowingError, to_u32(counts))};
 }
 
-// ---- PDOs
-// ----------------------------------------------------------------------------------------------------------
+// PDOs.
 
 /// 0x60C4:02 can be mapped by maxon's application note, cannot by its EDS, and is mapped by robots that run:
 /// tried, and read by SDO where the drive refuses. Must be the last steps of the sequence.

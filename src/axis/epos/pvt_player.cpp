@@ -32,7 +32,7 @@ PvtPlayer::PvtPlayer(Cia402PowerStage& stage, EposDevice& drive)
       watch_(drive, stage.sequence(), feed_, sender_, clock_),
       loader_(stage, feed_, sender_, watch_) {}
 
-// ---- for the power stage
+// For the power stage.
 
 void PvtPlayer::begin(HostTime now) {
   enter(Phase::ReadingRest, now);
@@ -112,7 +112,7 @@ HostDuration PvtPlayer::longest_motion(HostTime now) const {
   return host_duration(std::min(queued, alone) + fastest / deceleration);
 }
 
-// ---- plan and load
+// Plan and load.
 
 std::optional<Refusal> PvtPlayer::plan(const trajectory::Path& path, GoalTime wait) {
   auto plan = plan_pvt_goal(drive_, path, wait, rest_counts_);
@@ -135,7 +135,7 @@ void PvtPlayer::load(HostTime now) {
   loader_.begin(now);
 }
 
-// ---- playing
+// Playing.
 
 void PvtPlayer::arm(HostTime, HostTime now) {
   if (phase_ != Phase::Loaded) return;
@@ -221,7 +221,7 @@ void PvtPlayer::poll_ending(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// ---- a path that is still being made: what has not been sent yet is encoded anew whenever it has changed
+// A path that is still being made: what has not been sent yet is encoded anew whenever it has changed.
 
 std::optional<Refusal> PvtPlayer::plan_stream(HostTime origin, GoalTime rest) {
   auto plan = plan_pvt_standing(drive_, origin, rest, rest_counts_);
@@ -253,7 +253,7 @@ void PvtPlayer::follow() {
   feed_.replace_unsent(way_on_);
 }
 
-// ---- stopping
+// Stopping.
 
 void PvtPlayer::stop(HostTime now) {
   sender_.withdraw();
@@ -296,7 +296,7 @@ void PvtPlayer::poll_emptying(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// ---- results
+// Results.
 
 double PvtPlayer::rest_position() const {
   const std::int32_t counts = stage_.enabled() ? rest_counts_ : drive_.report().position;

@@ -50,7 +50,7 @@ ImsPlayer::ImsPlayer(SilverlodePowerStage& stage, LineStart* common_start)
   ims_goal_encoding(parameters_, *delivery_).validate();
 }
 
-// ---- for the power stage
+// For the power stage.
 
 bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   if (!delivery_->owns(outcome)) return start_.take(outcome);
@@ -132,7 +132,7 @@ HostDuration ImsPlayer::longest_motion(HostTime now) const {
   return host_duration(queued + ramp);
 }
 
-// ---- from a path to a drive that plays it
+// From a path to a drive that plays it.
 
 std::optional<Refusal> ImsPlayer::plan(const trajectory::Path& path, GoalTime) {
   auto plan = plan_ims_goal(parameters_, *delivery_, path, rest_counts_);
@@ -199,7 +199,7 @@ void ImsPlayer::begin_motion(HostTime now) {
   poll_moving(now);
 }
 
-// ---- a drive in motion
+// A drive in motion.
 
 void ImsPlayer::poll_moving(HostTime now) {
   if (const auto look = std::exchange(stage_.status().execution, std::nullopt)) {
@@ -292,7 +292,7 @@ void ImsPlayer::stop(HostTime now) {
                           now);
 }
 
-// ---- a path that is still being made: it may change behind the segment that has been encoded last
+// A path that is still being made: it may change behind the segment that has been encoded last.
 
 std::optional<Refusal> ImsPlayer::plan_stream(HostTime origin, GoalTime rest) {
   planned_ = {trajectory::with_rest(trajectory::Path(rest_position()), rest), {}, origin};
@@ -310,7 +310,7 @@ std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path) {
                            parameters_.stream_deviation_bound);
 }
 
-// ---- results
+// Results.
 
 double ImsPlayer::rest_position() const {
   const std::int32_t counts = stage_.enabled() ? rest_counts_ : stage_.status().actual_counts();

@@ -59,7 +59,7 @@ std::string SilverlodePowerStage::description() const {
   return fmt::format("{}: SilverLode drive, revision {}, {}", who(), facts_.revision, player_->queue_text());
 }
 
-// ---- polling
+// Polling.
 
 void SilverlodePowerStage::poll(HostTime now) {
   AxisBase::poll(now);
@@ -113,7 +113,7 @@ void SilverlodePowerStage::drop_work() {
   heard_stop_ = false;
 }
 
-// ---- bring-up and driver
+// Bring-up and driver.
 
 void SilverlodePowerStage::forget_drive() {
   device_.drop_requests();
@@ -157,7 +157,7 @@ void SilverlodePowerStage::reset_fault(HostTime now) {
   if (stage() == Stage::Fault || stage() == Stage::Offline) bring_up(now);
 }
 
-// ---- watching
+// Watching.
 
 /// Asks the drive for its status when the line has nothing better to do, and after a while even if it has.
 void SilverlodePowerStage::look_at_drive(HostTime now) {
@@ -191,7 +191,7 @@ void SilverlodePowerStage::watch_rest(HostTime now) {
   if (status_.polling.fault()) return fail("the drive reports: " + status_.polling.text(), now);
 }
 
-// ---- a fault in motion
+// A fault in motion.
 
 void SilverlodePowerStage::press_stop(HostTime now) {
   if (sequence_.running()) return;
@@ -206,7 +206,7 @@ std::string SilverlodePowerStage::unseen_text() const {
   return sequence_.running() ? "it does not answer" : sequence_.failure();
 }
 
-// ---- results
+// Results.
 
 void SilverlodePowerStage::drive_status(AxisStatus& out) const {
   const bool faulted = status_.polling.fault();

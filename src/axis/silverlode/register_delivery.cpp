@@ -55,7 +55,7 @@ SegmentDelivery::Steps RegisterDelivery::clear_steps() {
   return {{silverlode::wri_request(address(), registers::kImsControl, stale_control()), {}}};
 }
 
-// ---- budget
+// Budget.
 
 double RegisterDelivery::segment_time(const silverlode::LineMaster& line) {
   return static_cast<double>(kWrites) * seconds(line.exchange_time(longest_write()));
@@ -94,7 +94,7 @@ std::vector<RecordSlot> RegisterDelivery::slots(const std::vector<double>& begin
   return slots;
 }
 
-// ---- sending
+// Sending.
 
 std::int32_t RegisterDelivery::control_of(std::size_t segment) const {
   return encode_ims_control({false, registers_.block_of(segment)});
@@ -179,7 +179,7 @@ void RegisterDelivery::withdraw_late_repetition(HostTime now) {
   command_ = Command::None;
 }
 
-// ---- outcomes
+// Outcomes.
 
 SegmentDelivery::Failure RegisterDelivery::take(const Outcome& outcome, HostTime) {
   forget_command();

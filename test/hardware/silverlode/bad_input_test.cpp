@@ -37,7 +37,7 @@ void refuse(Scenario& scenario, const std::string& joint, int command, int code,
       << reason;
 }
 
-// ---- what a goal asks of the motor
+// What a goal asks of the motor.
 
 /// Both joints over the same distance in the same time, on a cubic with 1.5 times the mean velocity.
 trajectory::Goal one_step(double distance, double seconds) {
@@ -76,7 +76,7 @@ TEST(SilverlodeBadGoal, MoreAccelerationThanASegmentCanSay) {
   expect_refused(scenario, one_step(0.0005, 0.00025), {"joint1", "rpm/s of the motor"});
 }
 
-// ---- refusals of the drive at bring-up
+// Refusals of the drive at bring-up.
 
 struct Refused {
   int command;
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, RefusalAtBringUp,
                                          Refused{kEmd, "EMD"}, Refused{kImq, "IMQ"}),
                          [](const testing::TestParamInfo<Refused>& refused) { return refused.param.name; });
 
-// ---- refusals of the drive in motion
+// Refusals of the drive in motion.
 
 class RefusalInMotion : public FaultInMotion, public testing::WithParamInterface<int> {
  protected:
@@ -160,7 +160,7 @@ TEST_P(RefusalOfTheStart, IsNamedAndNothingMoves) {
 
 INSTANTIATE_TEST_SUITE_P(Codes, RefusalOfTheStart, testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
 
-// ---- lines that are no answer
+// Lines that are no answer.
 
 struct StrangeLine {
   const char* name;
@@ -204,7 +204,7 @@ const StrangeLine kStrangeLines[] = {
 INSTANTIATE_TEST_SUITE_P(Lines, StrangeLines, testing::ValuesIn(kStrangeLines),
                          [](const testing::TestParamInfo<StrangeLine>& line) { return line.param.name; });
 
-// ---- drives and parameters that do not fit
+// Drives and parameters that do not fit.
 
 TEST(SilverlodeBringUp, RevisionIsShownWhateverItIs) {
   Scenario scenario(six_axis_silverlode("{drives: {joint1: {emulation: {revision: 1, queue_depth: 4}}}}"));
