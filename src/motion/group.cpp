@@ -143,10 +143,11 @@ void Group::poll_stopping(HostTime now) {
   disable_when_stopped_ = false;
   if (faulted()) {
     fail_pending(faults());
+    finish_stop_goals(GoalOutcome::Aborted, faults());
     return enter_fault();
   }
   enter_rest_state(now);
-  finish_stop_goals();
+  finish_stop_goals(GoalOutcome::Succeeded);
   requests_.settle(state_, fault_);  // before a goal that has waited for this rest begins
   if (pending_) start_pending(now);
 }

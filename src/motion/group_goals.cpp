@@ -68,7 +68,7 @@ GoalAcceptance Group::accept_stop(HostTime now) {
   if (pending_) fail_pending("replaced by a stop", GoalOutcome::Preempted);
   if (in_motion()) stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a stop."}});
   stop_goals_.push_back(acceptance.id);
-  if (state_ == GroupState::Idle) finish_stop_goals();
+  if (state_ == GroupState::Idle) finish_stop_goals(GoalOutcome::Succeeded);
   return acceptance;
 }
 
@@ -187,9 +187,8 @@ void Group::finish_goal(const Ending& ending) {
   active_.reset();
 }
 
-void Group::finish_stop_goals() {
-  for (const GoalId id : stop_goals_)
-    results_.push_back({id, GoalOutcome::Succeeded, GoalError::InvalidGoal, ""});
+void Group::finish_stop_goals(GoalOutcome outcome, const std::string& why) {
+  for (const GoalId id : stop_goals_) results_.push_back({id, outcome, GoalError::InvalidGoal, why});
   stop_goals_.clear();
 }
 
@@ -199,9 +198,6 @@ void Group::fail_pending(const std::string& why, GoalOutcome outcome) {
         {pending_->id, outcome, GoalError::InvalidGoal, "The goal never started: " + why + "."});
     pending_.reset();
   }
-  for (const GoalId id : stop_goals_)
-    results_.push_back({id, GoalOutcome::Aborted, GoalError::InvalidGoal, why});
-  stop_goals_.clear();
 }
 
 }  // namespace interpolated_motion::motion

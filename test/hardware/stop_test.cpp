@@ -79,6 +79,19 @@ TEST_F(StopInMotion, EmptyGoalIsAStopThatSucceeds) {
   expect_rest();
 }
 
+TEST_F(StopInMotion, CancellingTheGoalThatWaitsForAStopLeavesTheStopAlone) {
+  trajectory::Goal empty;
+  empty.joint_names = load_goal(goal_file("six_axis_toppra_100ms_pva.yaml")).joint_names;
+  const auto stop = scenario.submit(empty);
+  ASSERT_TRUE(stop) << stop.error().text;
+  const auto waiting = scenario.submit(make_goal({2.0}, {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}));
+  ASSERT_TRUE(waiting) << waiting.error().text;
+  scenario.driver().cancel(waiting.value().id, scenario.now());
+  EXPECT_EQ(scenario.result_of(waiting.value().id, 1.0).outcome, GoalOutcome::Preempted);
+  EXPECT_EQ(scenario.result_of(stop.value().id, 1.0).outcome, GoalOutcome::Succeeded);
+  expect_rest();
+}
+
 TEST_F(StopInMotion, NewGoalReplacesTheRunningOne) {
   const auto accepted = scenario.submit(make_goal({2.0}, {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}));
   ASSERT_TRUE(accepted) << accepted.error().text;

@@ -122,7 +122,7 @@ class Group {
   HostTime committed() const;
   const trajectory::Path* path_in_force(std::size_t joint) const;
   void finish_goal(const Ending& ending);
-  void finish_stop_goals();
+  void finish_stop_goals(GoalOutcome outcome, const std::string& why = {});
   void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);
 
   void sample_feedback();
