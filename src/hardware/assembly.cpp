@@ -104,20 +104,36 @@ void Assembly::add_drive(const Configuration& configuration, const DriveConfigur
 
 void Assembly::begin_audits(const std::vector<trajectory::Path>& paths, HostTime now) {
   for (std::size_t i = 0; i < audits_.size(); ++i) audits_[i].begin(paths[i], now);
-  for (const auto& [name, emulated] : emulated_drives_) observe(emulated, true);
+  auditing_ = true;
+  observe_drives();
 }
 
 void Assembly::end_audits(HostTime now) {
   for (PathAudit& audit : audits_) audit.end(now);
-  for (const auto& [name, emulated] : emulated_drives_) observe(emulated, false);
+  auditing_ = false;
+  observe_drives();
+}
+
+void Assembly::set_motion_observer(SampleObserver observer) {
+  motion_observer_ = std::move(observer);
+  observe_drives();
 }
 
 // Drives that nobody looks at compute less.
-void Assembly::observe(const Emulated& emulated, bool on) {
-  if (!on) return emulated.drive->observe({});
-  emulated.drive->observe([this, joint = emulated.joint](const DemandSample& sample) {
-    if (sample.interpolating) take(joint, sample);
-  });
+void Assembly::observe_drives() {
+  const bool wanted = auditing_ || motion_observer_;
+  for (const auto& [name, emulated] : emulated_drives_) {
+    emulation::Drive::Observer observer;
+    if (wanted) {
+      observer = [this, joint = emulated.joint](const DemandSample& sample) { take_any(joint, sample); };
+    }
+    emulated.drive->observe(observer);
+  }
+}
+
+void Assembly::take_any(std::size_t joint, const DemandSample& sample) {
+  if (motion_observer_) motion_observer_(joint, sample);
+  if (auditing_ && sample.interpolating) take(joint, sample);
 }
 
 void Assembly::take(std::size_t joint, const DemandSample& sample) {

@@ -315,6 +315,10 @@ void MotionHardware::set_wire_observer(WireObserver observer) {
   implementation_->wire_observer = std::move(observer);
 }
 
+void MotionHardware::set_motion_observer(SampleObserver observer) {
+  implementation_->assembly.set_motion_observer(std::move(observer));
+}
+
 void MotionHardware::set_sample_observer(SampleObserver observer) {
   implementation_->assembly.set_sample_observer(std::move(observer));
 }

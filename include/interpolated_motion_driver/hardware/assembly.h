@@ -41,6 +41,8 @@ class Assembly {
   std::vector<PathAudit>& audits() { return audits_; }
   /// `observer` sees all samples that are audited.
   void set_sample_observer(SampleObserver observer) { sample_observer_ = std::move(observer); }
+  /// As MotionHardware::set_motion_observer().
+  void set_motion_observer(SampleObserver observer);
 
   /// Where the emulated drive of a joint stands, rad, whether or not its bus tells; nothing if it is not
   /// emulated here.
@@ -60,7 +62,8 @@ class Assembly {
   void add_bus(const Configuration& configuration, const BusConfiguration& bus);
   std::unique_ptr<BusLink> emulated_link(const BusConfiguration& bus);
   void add_drive(const Configuration& configuration, const DriveConfiguration& drive);
-  void observe(const Emulated& emulated, bool on);
+  void observe_drives();
+  void take_any(std::size_t joint, const DemandSample& sample);
   void take(std::size_t joint, const DemandSample& sample);
 
   emulation::World world_;
@@ -70,7 +73,9 @@ class Assembly {
   std::vector<std::unique_ptr<axis::Axis>> axes_;
   std::vector<encoding::Transmission> transmissions_;
   std::vector<PathAudit> audits_;
+  bool auditing_ = false;
   SampleObserver sample_observer_;
+  SampleObserver motion_observer_;
   std::map<std::string, Emulated> emulated_drives_;  ///< by joint
 };
 

@@ -102,8 +102,12 @@ class MotionHardware {
   void forget_samples(std::size_t joint);
   void add_sample(std::size_t joint, const DemandSample& sample);
 
-  /// `observer` is called at each 1 ms sample of an emulated drive, with the number of its joint in joints().
+  /// `observer` is called at each sample of an emulated drive that interpolates a goal or a stream, with the
+  /// number of its joint in joints().
   void set_sample_observer(SampleObserver observer);
+  /// `observer` is called at each sample of an emulated drive while it is powered: at rest, in stops and in
+  /// faults as well. A drive at rest may leave out samples in which nothing changes.
+  void set_motion_observer(SampleObserver observer);
 
   /// Where the emulated drive of a joint stands, rad, as of the last update(), whether or not its bus tells;
   /// nothing if it is not emulated in this process. `joint` is a number in joints().
