@@ -80,7 +80,8 @@ class Execution {
       const double wanted = encoding_.transmission.counts(samples_.position(t0 + tau));
       const double deviation = std::abs(demand.value(tau.count()) - wanted);
       if (deviation <= worst.worst_deviation) continue;
-      worst = {deviation, t0 + tau};
+      worst.worst_deviation = deviation;
+      worst.worst_time = t0 + tau;
     }
   }
 
@@ -90,6 +91,35 @@ class Execution {
   GoalTime next_;
   CipValues values_{};  // the newest first
   std::size_t known_ = 0;
+};
+
+/// The largest acceleration of a demand made of polynomials. Within one it is extreme at the ends; from one
+/// to the next the velocity steps, which the drive sees as the second difference of its samples there.
+class AccelerationWatch {
+ public:
+  explicit AccelerationWatch(const SetpointEncoding& encoding)
+      : period_(encoding.period.count()), servo_period_(encoding.servo_period.count()) {}
+
+  void take(const CipPolynomial& demand) {
+    note(demand.second_derivative(0.0));
+    note(demand.second_derivative(period_));
+    if (known_) {
+      const double rise = demand.value(servo_period_) - demand.value(0.0);
+      note((rise - last_rise_) / (servo_period_ * servo_period_));
+    }
+    last_rise_ = demand.value(period_) - demand.value(period_ - servo_period_);
+    known_ = true;
+  }
+  double worst() const { return worst_; }
+
+ private:
+  void note(double acceleration) { worst_ = std::max(worst_, std::abs(acceleration)); }
+
+  double period_;
+  double servo_period_;
+  double last_rise_ = 0.0;
+  bool known_ = false;
+  double worst_ = 0.0;
 };
 
 Refusal beyond_range(const SetpointEncoding& encoding, GoalTime time) {
@@ -106,6 +136,16 @@ Refusal beyond_bound(const SetpointEncoding& encoding, const SetpointCertificate
                       "sync_period, smoother or slower points, or a larger bound.",
                       encoding.joint, found.worst_time.count(), encoding.period.count() * 1e3,
                       found.worst_deviation, encoding.bound_counts)};
+}
+
+Refusal beyond_acceleration(const SetpointEncoding& encoding, double found) {
+  return {GoalError::InvalidGoal,
+          fmt::format(
+              "Joint '{}': with a target position each {:.0f} ms the drive would accelerate by {:.4g} per "
+              "s^2 from one of its samples to the next, more than limit_margin times the joint's limit "
+              "allows ({:.4g}): the acceleration changes too much at a point. Give accelerations at the "
+              "points, use smoother or slower ones, or a shorter sync_period.",
+              encoding.joint, encoding.period.count() * 1e3, found, encoding.max_acceleration)};
 }
 
 }  // namespace
@@ -126,9 +166,28 @@ Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path&
     while (execution.next() < path.end_time() + history) {
       if (!execution.advance(worst)) return beyond_range(encoding, execution.next());
     }
+    worst.acceleration = std::max(worst.acceleration,
+                                  demand_acceleration(path, path.start_time() - history + shift, encoding));
   }
   if (worst.worst_deviation > encoding.bound_counts) return beyond_bound(encoding, worst);
+  if (encoding.order > 1 && worst.acceleration > encoding.max_acceleration)
+    return beyond_acceleration(encoding, worst.acceleration);
   return worst;
+}
+
+double demand_acceleration(const trajectory::Path& path, GoalTime first, const SetpointEncoding& encoding) {
+  AccelerationWatch watch(encoding);
+  PathSweep setpoints(path);
+  CipValues values{};
+  std::size_t known = 0;
+  const GoalTime end = path.end_time() + kCipHistory * encoding.period;
+  for (GoalTime time = first; time < end; time += encoding.period) {
+    std::copy_backward(values.begin(), values.end() - 1, values.end());
+    values[0] = setpoints.position(time);
+    if (++known < kCipHistory) continue;
+    watch.take(interpolation::cip_position_polynomial(encoding.order, encoding.period.count(), values));
+  }
+  return watch.worst();
 }
 
 }  // namespace interpolated_motion::encoding

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "encoding/goal_paths.h"
+#include "interpolated_motion_driver/trajectory/jerk_limited_stop.h"
+#include "interpolated_motion_driver/trajectory/rest_to_rest.h"
+#include "interpolated_motion_driver/trajectory/stop_path.h"
 
 namespace interpolated_motion::encoding {
 namespace {
@@ -143,6 +146,80 @@ TEST(SetpointCertificate, WrongSettingsAreRefusedByName) {
   e = encoding(1000.0);
   e.bound_counts = 0.0;
   expect_refused(e, "bound_counts");
+}
+
+/// 1 rad/s from goal time 0 on, and from 0.5 s on to rest along `stop`.
+trajectory::Path braking_path(const trajectory::Path& stop) {
+  std::vector<trajectory::Piece> pieces{{GoalTime{0.0}, GoalTime{0.5}, {{0.0, 1.0}}}};
+  pieces.insert(pieces.end(), stop.pieces().begin(), stop.pieces().end());
+  return trajectory::Path(std::move(pieces));
+}
+
+/// The largest second difference of the drive's demand, from sample to sample, the demand by Lagrange's form.
+double sampled_acceleration(const trajectory::Path& path, double first, double last) {
+  constexpr double kPeriod = 0.010;
+  constexpr int kSamples = 10;  // per period
+  std::vector<double> demand;
+  for (int n = 3; first + n * kPeriod < last; ++n) {
+    std::vector<double> times;
+    std::vector<double> values;
+    for (int back = 0; back <= 3; ++back) {
+      times.push_back(first + (n - back) * kPeriod);
+      values.push_back(path.sample(GoalTime{times.back()}).position);
+    }
+    for (int i = 0; i < kSamples; ++i)
+      demand.push_back(lagrange(times, values, times[1] + i * kPeriod / kSamples));
+  }
+  double worst = 0.0;
+  for (std::size_t i = 2; i < demand.size(); ++i)
+    worst = std::max(worst, std::abs(demand[i] - 2.0 * demand[i - 1] + demand[i - 2]) / 1e-6);
+  return worst;
+}
+
+TEST(DemandAcceleration, IsThatOfTheDrivesSamples) {
+  const SetpointEncoding e = encoding(1e6);
+  const trajectory::State from{0.5, 1.0, 0.0};
+  for (const double ramp : {0.02, 0.05, 0.1}) {
+    const trajectory::Path path =
+        braking_path(trajectory::jerk_limited_stop(from, GoalTime{0.5}, {10.0, GoalTime{ramp}}));
+    for (const double first : {0.1, 0.103, 0.108}) {
+      const double sampled = sampled_acceleration(path, first, 1.0);
+      EXPECT_NEAR(demand_acceleration(path, GoalTime{first}, e), sampled, 0.05 * sampled)
+          << ramp << ", " << first;
+    }
+  }
+}
+
+// A step of acceleration on a target position is one of velocity in the cubic through four of them, a sixth
+// of it times the period: 10 rad/s^2 become 10 (10 / 6) between two samples of 1 ms, besides the bend of the
+// cubics.
+TEST(DemandAcceleration, OfAStepInAccelerationIsThatOfTheStepInVelocity) {
+  trajectory::JointLimits limits;
+  limits.max_acceleration = 10.0;
+  const trajectory::Path path =
+      braking_path(trajectory::shortest_stop_path({0.5, 1.0, 0.0}, GoalTime{0.5}, limits));
+  SetpointEncoding e = encoding(1e6);
+  const double found = demand_acceleration(path, GoalTime{0.4}, e);
+  EXPECT_GE(found, 10.0 * 10.0 / 6.0);
+  EXPECT_LE(found, 10.0 * 10.0 / 6.0 + 10.0);
+  e.order = 1;
+  EXPECT_NEAR(demand_acceleration(path, GoalTime{0.4}, e), 100.0, 1.0) << "0.1 rad/s within 1 ms";
+}
+
+TEST(SetpointCertificate, AccelerationBeyondTheLargestIsRefused) {
+  SetpointEncoding e = encoding(1000.0);
+  const trajectory::Path path =
+      trajectory::Path({trajectory::rest_to_rest(0.0, 1.0, GoalTime{0.0}, GoalTime{1.0})});
+  const auto found = certify_setpoints(path, e);
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_NEAR(found.value().acceleration, 10.0 / std::sqrt(3.0), 0.3);
+  e.max_acceleration = 0.9 * found.value().acceleration;
+  const auto refused = certify_setpoints(path, e);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text.find("limit_margin"), std::string::npos) << refused.error().text;
+  e.order = 1;
+  e.bound_counts = 50.0;
+  EXPECT_TRUE(certify_setpoints(path, e)) << "a line has steps in velocity by nature";
 }
 
 }  // namespace

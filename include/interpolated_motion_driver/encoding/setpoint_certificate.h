@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "interpolated_motion_driver/encoding/transmission.h"
@@ -21,12 +22,16 @@ struct SetpointEncoding {
   int order = 3;                ///< of the drive's fine interpolation, 1..3
   GoalTime servo_period{1e-3};  ///< between the drive's samples, 0 < servo_period <= period
   double bound_counts = 5.0;    ///< largest deviation from the path at any sample of the drive
+  /// Largest acceleration of the drive's demand, per s^2, from sample to sample. A drive that interpolates on
+  /// a line (order 1) has steps in velocity by nature: there it means nothing.
+  double max_acceleration = std::numeric_limits<double>::infinity();
 };
 
 /// What the drive will make of a path.
 struct SetpointCertificate {
   double worst_deviation = 0.0;  ///< counts, at the drive's samples
   GoalTime worst_time{0.0};      ///< when it occurs, in the path's time
+  double acceleration = 0.0;     ///< largest of the demand, per s^2; see demand_acceleration()
 };
 
 /// The target position, counts, for goal time `time`: rounded, and cut off at the ends of 32 bits.
@@ -35,10 +40,16 @@ std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& trans
 /// Executes the target positions of `path` as the drive will, from a rest of several periods before the path
 /// to one behind it, and compares each sample of the drive with the path. Where the instants of the target
 /// positions fall within the path is known only when it starts, so `kSetpointPhases` positions of them are
-/// tried, evenly spread over the period. Refused: a deviation above the bound, with what to do; a position
-/// beyond 32 bits; values that are not finite. `encoding` out of its ranges throws std::invalid_argument.
+/// tried, evenly spread over the period. Refused: a deviation above the bound or an acceleration above the
+/// largest, with what to do; a position beyond 32 bits; values that are not finite. `encoding` out of its
+/// ranges throws std::invalid_argument.
 Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
                                                          const SetpointEncoding& encoding);
+
+/// Largest acceleration, per s^2, of what the drive makes of target positions that follow `path` exactly, not
+/// rounded to counts: by differences of its demand from servo sample to servo sample, between the target
+/// positions at `first` and those behind the path. `encoding` must be valid.
+double demand_acceleration(const trajectory::Path& path, GoalTime first, const SetpointEncoding& encoding);
 
 /// Positions of the target instants within the path that certify_setpoints() tries.
 inline constexpr int kSetpointPhases = 4;

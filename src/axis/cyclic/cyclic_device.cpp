@@ -43,12 +43,24 @@ const CyclicAxisParameters& checked(const CyclicAxisParameters& p) {
 
 }  // namespace
 
+encoding::SetpointEncoding setpoint_encoding(const CyclicAxisParameters& parameters) {
+  encoding::SetpointEncoding encoding;
+  encoding.joint = parameters.joint;
+  encoding.transmission = parameters.transmission;
+  encoding.period = GoalTime{seconds(parameters.sync_period)};
+  encoding.order = parameters.interpolation_order;
+  encoding.servo_period = GoalTime{parameters.servo_period};
+  encoding.bound_counts = parameters.deviation_bound;
+  encoding.max_acceleration = parameters.limit_margin * parameters.limits.max_acceleration;
+  return encoding;
+}
+
 CyclicDevice::CyclicDevice(const CyclicAxisParameters& parameters, canopen::Master& master,
                            canopen::NodeLink& node)
     : parameters_(checked(parameters)),
       master_(master),
       node_(node),
-      setpoints_(parameters_.transmission, parameters_.sync_period, parameters_.interpolation_order) {
+      setpoints_(setpoint_encoding(parameters_), parameters_.limits) {
   const auto& bus = master.parameters();
   require(bus.isochronous && bus.sync_period == parameters_.sync_period, parameters_, "sync_period",
           seconds(parameters_.sync_period), "that of an isochronous bus");

@@ -113,20 +113,8 @@ void SetpointPlayer::send_target() {
 
 // A goal's way.
 
-encoding::SetpointEncoding SetpointPlayer::encoding() const {
-  const CyclicAxisParameters& parameters = drive_.parameters();
-  encoding::SetpointEncoding encoding;
-  encoding.joint = parameters.joint;
-  encoding.transmission = parameters.transmission;
-  encoding.period = GoalTime{seconds(parameters.sync_period)};
-  encoding.order = parameters.interpolation_order;
-  encoding.servo_period = GoalTime{parameters.servo_period};
-  encoding.bound_counts = parameters.deviation_bound;
-  return encoding;
-}
-
 std::optional<Refusal> SetpointPlayer::plan(const trajectory::Path& path, GoalTime) {
-  const auto certificate = encoding::certify_setpoints(path, encoding());
+  const auto certificate = encoding::certify_setpoints(path, setpoint_encoding(drive_.parameters()));
   if (!certificate) return certificate.error();
   planned_ = path;
   planned_origin_.reset();
@@ -176,6 +164,13 @@ void SetpointPlayer::poll_moving(HostTime now) {
     return stage_.fail(fmt::format("no position has come from the drive for {:.2f} s", seconds(now - known)),
                        now);
   }
+  if (drive_.setpoints().astray()) {
+    return stage_.fail(
+        fmt::format("the host was away so long that the drive has gone astray without target positions ({} "
+                    "missed in this motion), and the joint's limits allow no way back to its path",
+                    drive_.setpoints().missed() - missed_at_load_),
+        now);
+  }
   if (!drive_.setpoints().played(now)) return;
   finished_ = true;
   come_to_rest(now);
@@ -187,7 +182,7 @@ void SetpointPlayer::stop(HostTime now) {
     case Phase::Loaded:
       return enter(Phase::Ready, now);
     case Phase::Moving:
-      drive_.setpoints().brake(drive_.parameters().limits);
+      drive_.setpoints().brake();
       return enter(Phase::Braking, now);
     default:
       return;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -11,13 +12,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr HostDuration kPeriod = milliseconds(10);
 constexpr double kCounts = 1000.0;  // per rad
+constexpr double kMaxAcceleration = 10.0;
 
-encoding::Transmission transmission() {
-  encoding::Transmission t;
-  t.counts_per_revolution = kCounts * 2.0 * 3.14159265358979324;
-  return t;
+encoding::SetpointEncoding encoding_of(double counts) {
+  encoding::SetpointEncoding encoding;
+  encoding.transmission.counts_per_revolution = counts * 2.0 * 3.14159265358979324;
+  return encoding;
 }
 
 HostTime at(int ms) { return HostTime{milliseconds(ms)}; }
@@ -29,9 +30,30 @@ trajectory::Path ramp(double from, double velocity, double duration) {
   return trajectory::Path({{GoalTime{0.0}, GoalTime{duration}, polynomial}});
 }
 
+trajectory::JointLimits limits() {
+  trajectory::JointLimits limits;
+  limits.min_position = -10.0;
+  limits.max_position = 10.0;
+  limits.max_velocity = 2.5;
+  limits.max_acceleration = kMaxAcceleration;
+  return limits;
+}
+
 class SetpointStreamTest : public testing::Test {
  protected:
-  SetpointStream stream{transmission(), kPeriod, 3};
+  /// What the targets of the SYNCs in [from, to) ms are.
+  void play(int from, int to) {
+    for (int sync = from; sync < to; sync += 10) targets.push_back(*stream.next(at(sync)));
+  }
+  void expect_within_acceleration(double limit) const {
+    for (std::size_t i = 2; i < targets.size(); ++i) {
+      const double acceleration = (targets[i] - 2.0 * targets[i - 1] + targets[i - 2]) / (kCounts * 1e-4);
+      EXPECT_LE(std::abs(acceleration), limit + 2.0 / (kCounts * 1e-4)) << i;
+    }
+  }
+
+  SetpointStream stream{encoding_of(kCounts), limits()};
+  std::vector<double> targets;
 };
 
 TEST_F(SetpointStreamTest, RestsWhereItIsTold) {
@@ -72,57 +94,101 @@ TEST_F(SetpointStreamTest, IsPlayedWhenTheDriveHasOnlyTheEndInItsHistory) {
   EXPECT_TRUE(stream.played(at(1530)));
 }
 
+// On a straight line the drive has gone on as the path does.
 TEST_F(SetpointStreamTest, SkippedSyncsCountAsMissedAndShiftNothing) {
   stream.follow(ramp(1.0, 2.0, 0.5), at(1000));
-  stream.next(at(1000));
+  play(1000, 1100);
   EXPECT_EQ(stream.missed(), 0U);
-  EXPECT_EQ(stream.next(at(1040)), 1100);
-  EXPECT_EQ(stream.missed(), 3U);
+  EXPECT_EQ(stream.next(at(1140)), 1300);
+  EXPECT_EQ(stream.missed(), 4U);
+  EXPECT_FALSE(stream.astray());
   stream.restart();
   stream.next(at(5000));
-  EXPECT_EQ(stream.missed(), 3U);
+  EXPECT_EQ(stream.missed(), 4U);
+}
+
+// 4 rad/s^2 are taken from the path while the host is away for 4 periods; the drive goes straight on. It
+// comes back as it can.
+TEST_F(SetpointStreamTest, ComesBackFromWhereTheDriveHasGoneWithinTheLimits) {
+  trajectory::Polynomial straight{{0.0, 2.0}};
+  trajectory::Polynomial bent{{0.6, 2.0, -2.0}};
+  stream.follow(
+      trajectory::Path({{GoalTime{0.0}, GoalTime{0.3}, straight}, {GoalTime{0.3}, GoalTime{0.8}, bent}}),
+      at(1000));
+  play(1000, 1300);
+  EXPECT_EQ(targets.back(), 600.0);
+  targets.clear();
+  const double first = *stream.next(at(1340));
+  EXPECT_EQ(first, 700.0) << "the drive's polynomial";
+  targets = {first - 40.0, first - 20.0, first};
+  play(1350, 1700);
+  EXPECT_EQ(targets.back(), 600.0 + 2000.0 * 0.4 - 2000.0 * 0.16);
+  expect_within_acceleration(1.1 * kMaxAcceleration);
+}
+
+TEST_F(SetpointStreamTest, IsAstrayWhereNoWayBackKeepsTheLimits) {
+  stream.follow(ramp(0.0, 2.0, 5.0), at(1000));
+  play(1000, 1100);
+  trajectory::Polynomial back{{0.2, -2.0}};
+  stream.follow(trajectory::Path({{GoalTime{0.1}, GoalTime{5.0}, back}}), at(1100));
+  EXPECT_EQ(stream.next(at(1140)), 300) << "goes on as it went until it is stopped";
+  EXPECT_TRUE(stream.astray());
+  EXPECT_EQ(stream.next(at(1150)), 320);
+  stream.rest(320);
+  EXPECT_FALSE(stream.astray());
 }
 
 TEST_F(SetpointStreamTest, BrakesFromTheNewestTargetOnSmoothly) {
-  trajectory::JointLimits limits;
-  limits.max_acceleration = 10.0;
   stream.follow(ramp(0.0, 2.0, 5.0), at(1000));
-  std::vector<double> targets;
-  for (int sync = 1000; sync < 1100; sync += 10) targets.push_back(*stream.next(at(sync)));
-  stream.brake(limits);
+  play(1000, 1100);
+  stream.brake();
   const double left_at = targets.back();
   EXPECT_EQ(left_at, 200.0);
-  for (int sync = 1100; sync < 1600; sync += 10) targets.push_back(*stream.next(at(sync)));
+  play(1100, 1600);
   EXPECT_TRUE(stream.played(at(1600)));
-  // 0.75 v^2 / a = 0.3 rad.
-  EXPECT_NEAR(targets.back() - left_at, 300.0, 1.0);
-  for (std::size_t i = 2; i < targets.size(); ++i) {
-    const double acceleration = (targets[i] - 2.0 * targets[i - 1] + targets[i - 2]) / (kCounts * 1e-4);
-    EXPECT_LE(std::abs(acceleration), 10.0 + 2.0 / (kCounts * 1e-4)) << i;
-  }
+  // 2 rad/s at 9 rad/s^2, reached in 30 to 60 ms.
+  EXPECT_GE(targets.back() - left_at, 1e3 * 0.5 * 2.0 * (2.0 / 9.0 + 0.03) - 1.0);
+  EXPECT_LE(targets.back() - left_at, 1e3 * 0.5 * 2.0 * (2.0 / 9.0 + 0.06) + 1.0);
+  expect_within_acceleration(kMaxAcceleration);
 }
 
-// A smooth stop would take 0.3 rad where there are 0.22; full deceleration takes v^2 / 2a = 0.2.
+// Of a fine encoder: what whole counts bend a polynomial by, continued over three periods, is not to hide it.
+TEST_F(SetpointStreamTest, BrakesOnFromWhereTheDriveHasGoneWhileTheHostWasAway) {
+  constexpr double kFiner = 100.0;
+  SetpointStream exact(encoding_of(kCounts * kFiner), limits());
+  exact.follow(ramp(0.0, 2.0, 5.0), at(1000));
+  for (int sync = 1000; sync < 1100; sync += 10) exact.next(at(sync));
+  exact.brake();
+  for (int sync = 1100; sync < 1150; sync += 10) targets.push_back(*exact.next(at(sync)) / kFiner);
+  const double before = targets.back();
+  targets = {*exact.next(at(1180)) / kFiner};
+  EXPECT_GT(targets.front(), before + 50.0) << "as the polynomial has bent until then";
+  EXPECT_LT(targets.front(), before + 80.0) << "at 2 rad/s";
+  for (int sync = 1190; sync < 1700; sync += 10) targets.push_back(*exact.next(at(sync)) / kFiner);
+  EXPECT_FALSE(exact.astray());
+  EXPECT_TRUE(exact.played(at(1700)));
+  expect_within_acceleration(kMaxAcceleration);
+}
+
+// The smooth stop would take 0.29 rad where there are 0.27; full deceleration takes v^2 / 2a = 0.2.
 TEST_F(SetpointStreamTest, BrakesHarderBeforeALimitOfPosition) {
-  trajectory::JointLimits limits;
-  limits.max_acceleration = 10.0;
-  limits.min_position = -10.0;
-  limits.max_position = 0.42;
-  stream.follow(ramp(0.0, 2.0, 0.21), at(1000));
-  for (int sync = 1000; sync < 1100; sync += 10) stream.next(at(sync));
-  stream.brake(limits);
+  trajectory::JointLimits narrow = limits();
+  narrow.max_position = 0.47;
+  SetpointStream near(encoding_of(kCounts), narrow);
+  near.follow(ramp(0.0, 2.0, 0.21), at(1000));
+  for (int sync = 1000; sync < 1100; sync += 10) near.next(at(sync));
+  near.brake();
   std::int32_t most = 0;
-  for (int sync = 1100; sync < 1600; sync += 10) most = std::max(most, *stream.next(at(sync)));
-  EXPECT_NEAR(most, 400, 1);
-  EXPECT_EQ(stream.newest_counts(), most);
+  for (int sync = 1100; sync < 1600; sync += 10) most = std::max(most, *near.next(at(sync)));
+  EXPECT_LE(most, 470);
+  EXPECT_GE(most, 400);
+  EXPECT_EQ(near.newest_counts(), most);
 }
 
 TEST_F(SetpointStreamTest, BrakingBeforeTheBeginStaysAtTheStart) {
-  trajectory::JointLimits limits;
-  limits.max_acceleration = 10.0;
   stream.follow(ramp(1.0, 2.0, 0.5), at(1000));
   stream.next(at(900));
-  stream.brake(limits);
+  stream.brake();
   EXPECT_EQ(stream.next(at(910)), 1000);
   EXPECT_EQ(stream.next(at(1200)), 1000);
 }

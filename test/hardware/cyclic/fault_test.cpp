@@ -111,8 +111,9 @@ TEST_F(CyclicFault, HostOffTheBusStopsEveryDriveByItself) {
 
 class CyclicStop : public FaultInMotion {};
 
-// The stop is a smooth one: 0.75 v^2 / a, and what the drive travels until the first target position of the
-// stop is reached: two periods for those on their way, one to the next SYNC.
+// The stop is a smooth one: v^2 / 2a at 0.9 of the limit, with ramps of 30 to 120 ms, and what the drive
+// travels until the first target position of the stop is reached: two periods for those on their way, one to
+// the next SYNC.
 TEST_F(CyclicStop, CancelStopsWithinTheDistanceOfTheStopPath) {
   move(six_axis_cyclic());
   const auto before = scenario->snapshot();
@@ -122,9 +123,10 @@ TEST_F(CyclicStop, CancelStopsWithinTheDistanceOfTheStopPath) {
   const auto rest = scenario->positions();
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const auto& start = before.joints[i].desired;
-    const double least = 0.75 * start.velocity * start.velocity / kAcceleration;
+    const double speed = std::abs(start.velocity);
+    const double expected = 0.5 * speed * (speed / (0.9 * kAcceleration) + 0.06);
     const double travelled = std::abs(rest[i] - start.position);
-    EXPECT_NEAR(travelled, least, std::abs(start.velocity) * 0.045 + 0.02) << "joint" << i + 1;
+    EXPECT_NEAR(travelled, expected, speed * 0.045 + 0.02) << "joint" << i + 1;
   }
   std::vector<double> target = rest;
   for (double& position : target) position -= 0.1;

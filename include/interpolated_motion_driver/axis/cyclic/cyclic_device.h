@@ -8,10 +8,14 @@
 #include "interpolated_motion_driver/axis/cyclic/cyclic_parameters.h"
 #include "interpolated_motion_driver/axis/cyclic/setpoint_stream.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
+#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/protocol/cia402/identity.h"
 
 namespace interpolated_motion::axis {
+
+/// How paths go to a drive with these settings.
+encoding::SetpointEncoding setpoint_encoding(const CyclicAxisParameters& parameters);
 
 /// A CiA 402 drive for the cyclic synchronous position mode: its settings, what it tells by its PDOs, and the
 /// target positions it gets. They go to it while its power stage is switched on, too, so that nothing moves

@@ -76,7 +76,6 @@ class SetpointPlayer final : public Player {
   void poll_moving(HostTime now);
   void come_to_rest(HostTime now);
   void enter(Phase phase, HostTime now);
-  encoding::SetpointEncoding encoding() const;
 
   Cia402PowerStage& stage_;
   CyclicDevice& drive_;

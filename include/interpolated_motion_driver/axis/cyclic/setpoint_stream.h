@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/axis/cyclic/setpoint_history.h"
+#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -16,45 +17,59 @@ namespace interpolated_motion::axis {
 /// before the SYNC of instant s belongs to instant s + period: its stamp. Between two stamps the drive
 /// interpolates, and it does so through the last few of them: a motion has been played to its end when all of
 /// these are at the end.
+///
+/// Where the host was too late, the drive has gone on along its polynomial and cannot be called back: the
+/// target positions go on from there, and back to the path within the limits (trajectory::rejoin),
+/// or, in a stop, to rest.
 class SetpointStream {
  public:
-  /// `order`: of the drive's fine interpolation.
-  SetpointStream(const encoding::Transmission& transmission, HostDuration period, int order)
-      : transmission_(transmission), period_(period), order_(order) {}
+  /// `limits` are what the joint brakes and comes back to its path within: velocity and acceleration must be
+  /// finite.
+  SetpointStream(const encoding::SetpointEncoding& encoding, const trajectory::JointLimits& limits);
 
   /// From the next target position on, rests at `counts`.
   void rest(std::int32_t counts);
   /// From the next target position on, follows `path`, its start at host time `begin`. Until then it rests at
   /// the start.
   void follow(const trajectory::Path& path, HostTime begin);
-  /// Leaves the path at the newest target position and comes to rest within `limits`: smoothly
-  /// (trajectory::stop_path), or as short as possible where that would leave the limits of position.
-  void brake(const trajectory::JointLimits& limits);
+  /// Leaves the path at the newest target position and comes to rest within the limits: smoothly
+  /// (trajectory::jerk_limited_stop), so that what the drive interpolates keeps the limit of acceleration,
+  /// and harder where the limits of position leave no room for that.
+  void brake();
 
   /// The target position to be sent for the SYNC that is due at `sync`; nothing if there has been one, or if
   /// `sync` is kNever.
   std::optional<std::int32_t> next(HostTime sync);
 
   /// Instant that the newest target position belongs to.
-  HostTime newest() const { return newest_; }
+  HostTime newest() const { return history_.newest(); }
   std::int32_t newest_counts() const { return counts_; }
   /// Whether the drive has come to the end of the path at `now`.
   bool played(HostTime now) const;
   /// Instants for which there was no target position, since the host was too late.
   std::uint64_t missed() const { return missed_; }
+  /// Whether the drive has gone so far astray that the limits allow no way back to the path. It goes on as it
+  /// went until it is stopped.
+  bool astray() const { return astray_; }
   /// Forgets when the newest one was: what follows continues nothing.
-  void restart() { newest_ = HostTime{}; }
+  void restart() { history_.clear(); }
 
  private:
   GoalTime goal_time(HostTime when) const;
+  bool rests_at(GoalTime time) const;
+  void lay(const trajectory::Path& path, HostTime begin);
+  void come_back(HostTime stamp);
+  std::int32_t target_at(HostTime stamp) const;
 
-  encoding::Transmission transmission_;
+  encoding::SetpointEncoding encoding_;
+  trajectory::JointLimits limits_;
   HostDuration period_;
-  int order_;
   trajectory::Path path_;
   HostTime begin_{};
   std::optional<std::int32_t> rest_{0};
-  HostTime newest_{};
+  bool braking_ = false;
+  bool astray_ = false;
+  SetpointHistory history_;
   std::int32_t counts_ = 0;
   std::uint64_t missed_ = 0;
 };
