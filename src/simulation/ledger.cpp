@@ -110,6 +110,12 @@ bool Ledger::is_touched(std::size_t joint, HostTime now, double within) const {
   });
 }
 
+bool Ledger::has_fault(const std::string& target, HostTime now, double within) const {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultEntry& fault) {
+    return fault.target == target && seconds(now - fault.time) <= within;
+  });
+}
+
 bool Ledger::has_order_since(HostTime when) const {
   if (last_setpoint_ >= when) return true;
   return std::any_of(goals_.begin(), goals_.end(), [when](const auto& goal) {

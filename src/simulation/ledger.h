@@ -82,6 +82,8 @@ class Ledger {
   bool is_disturbed() const { return disturbed_; }
   /// The joint or its bus had a fault within the last `within` s; ever, when nothing is given.
   bool is_touched(std::size_t joint, HostTime now, double within = 1e9) const;
+  /// A joint or a bus of that name had a fault within the last `within` s.
+  bool has_fault(const std::string& target, HostTime now, double within) const;
   /// Nothing was asked for since `when`: neither a goal nor a setpoint.
   bool has_order_since(HostTime when) const;
   bool has_request_since(const std::string& verb, HostTime when) const;

@@ -68,8 +68,9 @@ Simulation::Simulation(const Script& script, Trace::Listener listener)
       trace_(std::move(listener)),
       driver_(std::make_unique<hardware::MotionHardware>(parse(script.configuration), now_)),
       positions_(ledger_.arm().joints.size()) {
-  driver_->set_sample_observer(
-      [this](std::size_t joint, const hardware::DemandSample& sample) { take_sample(joint, sample); });
+  driver_->set_motion_observer([this](std::size_t joint, const hardware::DemandSample& sample) {
+    if (sample.interpolating) take_sample(joint, sample);
+  });
 }
 
 Outcome Simulation::run() {

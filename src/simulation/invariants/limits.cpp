@@ -17,6 +17,12 @@ constexpr double kPositionSlack = 2.0;
 /// Of the deviation bound, for velocity: a path at the limit may be left by the bound within the shortest
 /// record (5 ms).
 constexpr double kShortestRecord = 0.005;
+/// s: a drive that has lost target positions on its bus steps back to the path with the next ones, and the
+/// host cannot know.
+constexpr double kLostTargets = 0.5;
+constexpr double kAfterStream = 1.5;  // s, in which an arm has come to rest behind the newest setpoint
+constexpr double kAfterAbsence =
+    0.5;  // s, in which the clocks of drives that follow SYNC are themselves again
 
 }  // namespace
 
@@ -32,22 +38,38 @@ void Limits::check_motion(const Joint& joint, const Track& before, const Track& 
   const double allowed =
       joint.limit_margin * joint.max_velocity + joint.deviation_bound * joint.count() / kShortestRecord;
   if (std::abs(now.velocity) > allowed) {
-    return fail(fmt::format("{}: its drive demands {:.4f} rad/s, allowed {:.4f} (limit {})", joint.label(),
-                            now.velocity, allowed, joint.max_velocity));
+    return fail(
+        fmt::format("{}: its drive demands {:.4f} rad/s while the group is {}{}, allowed {:.4f} (limit {})",
+                    joint.label(), now.velocity, motion::to_string(ledger().state()), circumstance(now.time),
+                    allowed, joint.max_velocity));
   }
   if (before.known < 2) return;
   const double acceleration = (now.velocity - before.velocity) / (0.5 * (now.step + before.step));
   const double most = joint.limit_margin * joint.max_acceleration +
                       2.0 * joint.deviation_bound * joint.count() / (kShortestRecord * kShortestRecord);
   if (std::abs(acceleration) <= most) return;
-  fail(fmt::format("{}: its drive demands {:.3f} rad/s^2, allowed {:.3f} (limit {})", joint.label(),
-                   acceleration, most, joint.max_acceleration));
+  fail(fmt::format("{}: its drive demands {:.3f} rad/s^2 while the group is {}{}, allowed {:.3f} (limit {})",
+                   joint.label(), acceleration, motion::to_string(ledger().state()), circumstance(now.time),
+                   most, joint.max_acceleration));
+}
+
+const char* Limits::circumstance(HostTime when) const {
+  const HostTime absence = ledger().last_absence();
+  const bool recent = absence != HostTime{} && seconds(when - absence) <= kAfterAbsence;
+  if (recent) return " after the host was away";
+  const HostTime setpoint = ledger().last_setpoint();
+  const bool streams = setpoint != HostTime::min() && seconds(when - setpoint) <= kAfterStream;
+  return streams ? " in or after a stream" : "";
 }
 
 // Samples are a whole number of sample periods apart by the drive's clock; what the host's clock says besides
 // is the drive's crystal, and the steps of one that follows SYNC.
 void Limits::sample(const Sample& sample) {
   const Joint& joint = arm().joints[sample.joint];
+  if (joint.kind == "cyclic" && ledger().has_fault(joint.bus, sample.time, kLostTargets)) {
+    tracks_[sample.joint] = {};
+    return;
+  }
   check_position(joint, sample);
   Track& track = tracks_[sample.joint];
   const bool follows = track.known > 0 && seconds(sample.time - track.time) < joint.difference + kGap;
