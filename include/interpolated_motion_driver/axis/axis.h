@@ -27,44 +27,52 @@ enum class AxisState {
   Fault,          ///< the drive is in fault, or it did not do what it was told: reset_fault()
 };
 
+/// For messages, in lower case: "stopping with a fault".
 const char* to_string(AxisState state);
 
 /// A report of position and velocity by the drive, at the time it was latched.
 struct AxisFeedback {
-  HostTime time{};
+  HostTime time{};        ///< of the latching, on the host's clock; the epoch: no report yet
   double position = 0.0;  ///< rad
   double velocity = 0.0;  ///< rad/s
 };
 
 /// What is published of an axis besides its feedback.
 struct AxisStatus {
-  bool online = false;
-  std::string state;
-  std::uint16_t statusword = 0;
-  std::int8_t mode = 0;
+  bool online = false;  ///< the drive has answered and has not been lost since
+  std::string state;    ///< as CiA 402 names it; of SilverLode, which has no such states, the nearest words
+  std::uint16_t statusword = 0;  ///< 0x6041; of SilverLode the polling status word (POL)
+  std::int8_t mode = 0;          ///< 0x6061; 0 of SilverLode
   double demand_position = 0.0;  ///< rad
   double following_error = 0.0;  ///< rad
+  /// Of the last EMCY since the last reset, 0: none; of SilverLode the polling status word while it tells of
+  /// a fault.
   std::uint16_t error_code = 0;
-  std::string error_text;
+  std::string error_text;      ///< the same in words; empty: none
   std::uint32_t capacity = 0;  ///< records
   std::uint32_t fill = 0;      ///< records
   double fill_time = 0.0;      ///< s
+  /// EPOS: bits 0 to 3 of 0x20C4:01. SilverLode: underflow while nothing waits behind the segment under
+  /// execution and more is to come, the others never. Cyclic: none ever.
   bool underflow_warning = false;
   bool overflow_warning = false;
   bool velocity_warning = false;
   bool acceleration_warning = false;
+  /// Since the driver was started. Underruns: times a drive ran dry; of cyclic ones, SYNCs without a target
+  /// position. Overflows: of EPOS alone (0x20C4:01 bit 9). Refused: records that were lost or not taken.
   std::uint32_t underruns = 0;
   std::uint32_t overflows = 0;
   std::uint32_t refused_writes = 0;
   std::uint64_t records_sent = 0;
+  /// Of the drive's clock, estimated; positive: fast; 0 while unknown, or while it follows the host's.
   double clock_error_ppm = 0.0;
 };
 
 /// Figures of the plan that was played last.
 struct AxisReport {
-  std::uint64_t records_sent = 0;
+  std::uint64_t records_sent = 0;  ///< since load(), any that ends the motion included
   std::uint32_t minimum_fill = 0;  ///< records, while moving and more were to come
-  std::uint32_t underruns = 0;
+  std::uint32_t underruns = 0;     ///< of this motion; see AxisStatus
   std::uint32_t refused_writes =
       0;  ///< records the drive did not take at once (EPOS: got lost; SilverLode: NAK)
 };
@@ -83,10 +91,12 @@ class Axis {
  public:
   virtual ~Axis() = default;
 
+  /// The joint, and the bus its drive is on, as the configuration names them.
   virtual const std::string& joint() const = 0;
   virtual const std::string& bus() const = 0;
   /// What was found: "Joint joint1 (can0 node 1): maxon EPOS2 70/10, firmware 0x2126, ...".
   virtual std::string description() const = 0;
+  /// As of the latest poll() or command.
   virtual AxisState state() const = 0;
   /// Why the axis is Offline, in Fault or FaultStopping, in sentences with joint, bus, node and what to do.
   /// Empty otherwise.
@@ -94,12 +104,20 @@ class Axis {
 
   /// Does what is due at `now`.
   virtual void poll(HostTime now) = 0;
+  /// When poll() has something to do even if nothing arrives; kNever while only a command or the drive can
+  /// change anything.
   virtual HostTime next_deadline() const = 0;
 
+  /// Looks for the drive and forgets what was known of it: Configuring, then Disabled; Offline where none
+  /// answers in time, Fault where it is not as it must be. Nothing is stopped before: not for an axis that
+  /// may be moving.
   virtual void bring_up(HostTime now) = 0;
+  /// Switches the power stage on: Enabling, then Ready. Without effect but in Disabled.
   virtual void enable(HostTime now) = 0;
+  /// Switches the power stage off: Stopping, then Disabled. Without effect but in Ready.
   virtual void disable(HostTime now) = 0;
-  /// Clears a fault; an axis that was lost is looked for again. Ends in Disabled.
+  /// Clears a fault; an axis that was lost is looked for again. Ends in Disabled. Without effect but in Fault
+  /// and Offline.
   virtual void reset_fault(HostTime now) = 0;
 
   /// Where the drive's demand rests, in joint units. Valid in Disabled, Ready.
@@ -153,7 +171,9 @@ class Axis {
   virtual bool finished() const = 0;
   /// Latest position and velocity from the drive.
   virtual const AxisFeedback& feedback() const = 0;
+  /// Sets every field of `out`.
   virtual void status(HostTime now, AxisStatus& out) const = 0;
+  /// Of the plan loaded last.
   virtual AxisReport report() const = 0;
 };
 

@@ -30,6 +30,7 @@ class AxisBase : public PowerStage {
 
   // For the player.
 
+  /// The drive is enabled and its player plays; false as soon as a fault is found or disabling begins.
   bool enabled() const { return stage_ == Stage::Enabled; }
   /// Of the stage, or of the phase within it that the player has begun.
   StageTime& time() { return time_; }
@@ -42,8 +43,8 @@ class AxisBase : public PowerStage {
 
  protected:
   struct Settings {
-    std::string joint;
-    HostDuration bring_up_timeout{};
+    std::string joint;                ///< for joint() and messages
+    HostDuration bring_up_timeout{};  ///< longest wait for the drive's first answer
   };
 
   enum class Stage {

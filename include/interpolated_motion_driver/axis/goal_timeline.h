@@ -18,13 +18,15 @@ class GoalTimeline {
   /// drive.
   void change_rate(double drive_seconds, double rate);
 
+  /// Goal time when the drive has played `drive_seconds`; before the oldest change that is
+  /// remembered, by the rate of that one.
   GoalTime at(double drive_seconds) const;
 
  private:
   struct Stretch {
-    double drive_begin = 0.0;
-    GoalTime goal_begin{0.0};
-    double rate = 1.0;
+    double drive_begin = 0.0;  ///< s, drive's clock
+    GoalTime goal_begin{0.0};  ///< goal time at `drive_begin`
+    double rate = 1.0;         ///< goal seconds per drive second, until the next stretch
   };
   /// Stretches remembered. Those of some seconds: what the drive reports is younger.
   static constexpr std::size_t kMemory = 512;

@@ -40,6 +40,7 @@ class PlaybackClock {
   /// The drive has turned out not to follow: from now on the estimate is by what has been observed.
   void stop_following() { follows_host_ = false; }
   bool running() const { return running_; }
+  /// Nothing is played any more: elapsed() is 0 until the next start().
   void stop() { running_ = false; }
   HostTime start_time() const { return start_; }
 

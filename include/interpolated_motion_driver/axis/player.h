@@ -36,22 +36,28 @@ class Player {
 
   // For the group.
 
+  /// Called through Axis, which says what each of them does and owes the group. It is the caller who looks at
+  /// the state: plans are for an axis in Ready, arm() is for one in Loaded.
   virtual double rest_position() const = 0;
   virtual GoalTime start_lead() const = 0;
   virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
   virtual std::vector<RecordSlot> record_slots() const = 0;
   virtual double record_bus_time() const = 0;
+  /// As Axis: Loading, Loaded; Moving; Stopping, then Ready. What fails on the way is a fault of the power
+  /// stage.
   virtual void load(HostTime now) = 0;
   virtual void arm(HostTime begin, HostTime now) = 0;
   virtual HostTime path_begin() const = 0;
   virtual void stop(HostTime now) = 0;
 
+  /// As Axis, for a path that grows while it is played.
   virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
   virtual GoalTime stream_lead() const = 0;
   virtual HostTime committed() const = 0;
   virtual std::optional<Refusal> plan_follow(const trajectory::Path& path) = 0;
   virtual void follow() = 0;
 
+  /// As Axis: what the drive plays, as its clock is known.
   virtual GoalTime playback(HostTime when) const = 0;
   virtual GoalTime goal_time_at(double drive_seconds) const = 0;
   virtual bool finished() const = 0;

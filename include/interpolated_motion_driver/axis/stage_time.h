@@ -12,11 +12,11 @@ class StageTime {
   /// The axis is polled. Returns for how long the host was away before, as far as that was within the stage
   /// or phase; zero mostly.
   HostDuration poll(HostTime now);
-  HostTime polled() const { return polled_; }
+  HostTime polled() const { return polled_; }  ///< of the latest poll()
 
   /// A stage, or a phase within it, begins.
   void begin(HostTime now);
-  HostTime since() const { return since_; }
+  HostTime since() const { return since_; }  ///< of the latest begin()
   /// `limit` is over since the stage or phase began.
   bool expired(HostTime now, HostDuration limit) const { return now - since_ - away_ > limit; }
 

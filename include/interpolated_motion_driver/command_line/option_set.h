@@ -10,9 +10,9 @@ namespace interpolated_motion::command_line {
 
 /// What an option is called, what stands for its value in help(), and what it means, with unit and default.
 struct Option {
-  std::string name;   ///< without the dashes: "timeout" is given as --timeout
-  std::string value;  ///< such as SECONDS
-  std::string meaning;
+  std::string name;     ///< without the dashes: "timeout" is given as --timeout
+  std::string value;    ///< such as SECONDS
+  std::string meaning;  ///< for help(), as it is
 };
 
 /// Allowed values of a number.

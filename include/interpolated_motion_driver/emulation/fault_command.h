@@ -11,12 +11,13 @@ namespace interpolated_motion::emulation {
 
 /// A number that a command takes.
 struct FaultNumber {
-  const char* name;  ///< as people read it: "SECONDS"
-  double low;
-  double high;
+  const char* name;   ///< as people read it: "SECONDS"
+  double low;         ///< included
+  double high;        ///< included
   bool whole = true;  ///< no fraction
 };
 
+/// Ranges that several commands have in common: of a time off, an error of a crystal, on or off, how many.
 constexpr FaultNumber kFaultSeconds{"SECONDS", 0.0, kLongestOff, false};
 constexpr FaultNumber kFaultPpm{"PPM", -kLargestClockError, kLargestClockError, false};
 constexpr FaultNumber kFaultSwitch{"0|1", 0.0, 1.0};
@@ -26,8 +27,8 @@ constexpr FaultNumber kFaultCount{"COUNT", 0.0, 1e6};
 struct FaultCommand {
   using Numbers = std::vector<double>;
 
-  std::string name;  ///< "power_cycle", "fault over_voltage"
-  std::vector<FaultNumber> numbers;
+  std::string name;                          ///< "power_cycle", "fault over_voltage"
+  std::vector<FaultNumber> numbers;          ///< all must be given, in this order
   std::function<void(const Numbers&)> obey;  ///< given as many as `numbers` has, each within its range
   /// Of a command that takes all that is behind its name as it stands; it has no numbers then.
   std::function<void(const std::string&)> obey_text = {};

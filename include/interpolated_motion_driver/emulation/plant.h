@@ -8,6 +8,7 @@ namespace interpolated_motion::emulation {
 /// exactly for a demand that is linear within each millisecond. At constant velocity it is `lag_ms` behind.
 class Plant {
  public:
+  /// At rest at `position` (qc).
   Plant(const PlantParameters& parameters, double position);
 
   /// One millisecond under control; `demand` (qc) is that of its end.
@@ -19,7 +20,9 @@ class Plant {
   /// Puts the axis at a position, at rest.
   void place(double position);
 
+  /// While stalled the axis stays where it is, whatever the demand; free again it catches up from there.
   void set_stalled(bool stalled);
+  /// The axis is to follow the demand plus so many qc, from the next step on.
   void set_load(double counts) { load_ = counts; }
 
   double position() const { return position_; }  ///< qc

@@ -86,9 +86,9 @@ class World {
 
  private:
   struct CanMember {
-    transport::VirtualCanBus* bus;
-    int node_id;
-    std::unique_ptr<Drive> drive;
+    transport::VirtualCanBus* bus;  ///< of the world
+    int node_id;                    ///< 1..127, no other on this bus
+    std::unique_ptr<Drive> drive;   ///< never null
   };
 
   void require_free_name(const std::string& name) const;

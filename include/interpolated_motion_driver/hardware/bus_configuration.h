@@ -27,6 +27,7 @@ struct DriveNumbers {
   int highest;        ///< the lowest is 1
 };
 
+/// Node ids on CANopen, addresses on a SilverLode line.
 const DriveNumbers& drive_numbers(BusType type);
 
 /// As the configuration calls it: "canopen".
@@ -53,9 +54,9 @@ enum class LineStartKind {
 
 /// What only serial lines have.
 struct SerialLineConfiguration {
-  silverlode::LineParameters line;
+  silverlode::LineParameters line;  ///< bits, pauses and patience of the line
   transport::SerialWiring wiring = transport::SerialWiring::Rs485TwoWire;  ///< of an emulated line
-  LineStartKind start = LineStartKind::Addressed;
+  LineStartKind start = LineStartKind::Addressed;                          ///< of interpolated motion
   double start_lead =
       0.15;  ///< s, and kLeadOfDrive more for each drive: from the start command to the motion
   double status_period = 0.05;  ///< s, between two looks at one drive in motion
@@ -63,12 +64,13 @@ struct SerialLineConfiguration {
 
 /// A bus and its protocol. What only one protocol knows is without meaning for the other.
 struct BusConfiguration {
-  std::string name;
-  BusType type = BusType::Canopen;
+  std::string name;                 ///< its key under `buses`
+  BusType type = BusType::Canopen;  ///< decides which kinds of drives it can have
+  /// Socketcan for CANopen only, Serial for SilverLode only.
   TransportKind transport = TransportKind::Emulated;
-  SocketcanConfiguration socketcan;
-  SerialPortConfiguration port;
-  SerialLineConfiguration serial;
+  SocketcanConfiguration socketcan;   ///< of transport Socketcan
+  SerialPortConfiguration port;       ///< of transport Serial
+  SerialLineConfiguration serial;     ///< of type Silverlode, emulated or not
   std::uint32_t bitrate = 1'000'000;  ///< bit/s
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
   double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats

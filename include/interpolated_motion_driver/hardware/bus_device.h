@@ -32,6 +32,8 @@ class BusDevice {
   /// Has EventLoop::wake called once when something arrives. To be called again after each receiving.
   virtual void watch() = 0;
 
+  /// Something can be sent and received, as of the latest poll(), sending or receiving. While not, BusLink
+  /// drops what its master wants to send.
   virtual bool usable() const = 0;
   /// The state in one sentence, with what to do.
   virtual const std::string& status() const = 0;
@@ -40,6 +42,7 @@ class BusDevice {
 
   /// What the controller has reported about the bus, oldest first, in words.
   virtual std::optional<std::string> take_error() = 0;
+  /// Reports of the CAN controller about a disturbed bus, since the device was made; 0 of a serial port.
   virtual std::uint64_t error_frames() const = 0;
   /// Frames that the kernel had no room for, and frames taken for sending that have not been on the bus.
   virtual std::uint64_t lost_frames() const = 0;

@@ -19,6 +19,7 @@ namespace interpolated_motion::hardware {
 /// forgotten, because a command of then must not reach a drive now.
 class BusLink : public axis::StartSignal {
  public:
+  /// As the configuration has it; lives as long as the link.
   virtual const std::string& name() const = 0;
 
   /// Gives the master everything that has arrived.
@@ -30,10 +31,14 @@ class BusLink : public axis::StartSignal {
   virtual void poll(HostTime now) = 0;
   /// Hands the transport everything that is due and that it takes.
   void send(HostTime now);
+  /// When poll(), send() or follow_device() has something to do by itself; kNever when nothing has.
   HostTime next_deadline() const;
 
+  /// Sets name, traffic and the state of the device ("emulated" without one); leaves what this type of bus
+  /// has not.
   void snapshot(motion::BusSnapshot& out) const;
   virtual double peak_load() const = 0;  ///< 0..1, since reset_peak_load()
+  /// The next peak begins at 0.
   virtual void reset_peak_load() = 0;
   /// Frames or lines nobody was waiting for, and sentences about them.
   virtual std::uint64_t unexpected() const = 0;

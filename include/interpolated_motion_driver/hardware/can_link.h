@@ -18,6 +18,7 @@ class CanLink : public BusLink {
   CanLink(const BusConfiguration& configuration, transport::CanBus& bus,
           std::unique_ptr<BusDevice> device = nullptr);
 
+  /// Axes add their nodes to it; it lives as long as the link.
   canopen::Master& master() { return master_; }
   const std::string& name() const override { return master_.bus_name(); }
 

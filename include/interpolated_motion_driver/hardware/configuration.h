@@ -21,22 +21,24 @@ struct ConstraintConfiguration {
   };
   double goal_time = 0.0;                    ///< s
   double stopped_velocity_tolerance = 0.01;  ///< rad/s
-  std::map<std::string, Joint> joints;
+  std::map<std::string, Joint> joints;       ///< by name; an entry for each joint once it has been parsed
 };
 
 struct Configuration {
-  std::vector<std::string> joints;  ///< names and order of every published array
-  std::vector<BusConfiguration> buses;
+  std::vector<std::string> joints;         ///< names and order of every published array
+  std::vector<BusConfiguration> buses;     ///< in the order of the parameters
   std::vector<DriveConfiguration> drives;  ///< in the order of `joints`
-  ConstraintConfiguration constraints;
+  ConstraintConfiguration constraints;     ///< where a goal has no tolerances of its own
+  /// s, 0..60; accepted for joint_trajectory_controller's sake and without effect: drives stop by their own
+  /// deceleration.
   double stop_trajectory_duration = 0.0;
-  bool allow_partial_joints_goal = false;
+  bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
   double start_tolerance = 0.05;  ///< rad, of a goal's first point at t = 0 against the present position
   double commit_horizon = 2.0;    ///< s of motion kept in the drives' FIFOs
   double bring_up_timeout = 5.0;  ///< s for all drives to answer and be configured
   double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
-  bool enable_on_start = true;
-  motion::StreamParameters setpoints;
+  bool enable_on_start = true;    ///< power stages are switched on when all drives are configured
+  motion::StreamParameters setpoints;  ///< how streams of setpoints are followed
 
   /// The bus of a drive. Throws std::invalid_argument that names the parameter when there is none of that
   /// name.

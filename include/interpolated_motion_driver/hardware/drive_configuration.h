@@ -26,16 +26,16 @@ struct DriveEmulation {
 
 /// A joint's drive.
 struct DriveConfiguration {
-  std::string joint;
-  std::string bus;
-  const DriveKind* kind = nullptr;
-  int number = 0;  ///< node id, 1..127, or address on a SilverLode line, 1..254
-  encoding::Transmission transmission;
-  trajectory::JointLimits limits;    ///< URDF limits, tightened by the configuration
-  double deviation_bound = 1.0;      ///< counts, worst deviation from the path at any drive sample
-  double max_following_error = 0.1;  ///< rad, beyond it the drive faults (0x6065, ERL)
+  std::string joint;                    ///< its key under `drives`
+  std::string bus;                      ///< key under `buses`, see Configuration::bus_of()
+  const DriveKind* kind = nullptr;      ///< the one object of its kind; never null once it has been parsed
+  int number = 0;                       ///< node id, 1..127, or address on a SilverLode line, 1..254
+  encoding::Transmission transmission;  ///< between joint units and counts
+  trajectory::JointLimits limits;       ///< URDF limits, tightened by the configuration
+  double deviation_bound = 1.0;         ///< counts, worst deviation from the path at any drive sample
+  double max_following_error = 0.1;     ///< rad, beyond it the drive faults (0x6065, ERL)
   double limit_margin = 1.2;  ///< 1..10; what the drive is given may exceed the joint's limits by this factor
-  DriveEmulation emulation;
+  DriveEmulation emulation;   ///< without meaning where the bus is not emulated
   std::shared_ptr<const DriveSettings> settings;  ///< of its kind
 };
 

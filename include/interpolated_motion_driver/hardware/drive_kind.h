@@ -62,6 +62,8 @@ class DriveKind {
 /// A kind of drive on CANopen.
 class CanDriveKind : public DriveKind {
  public:
+  /// As DriveKind. Throws std::bad_cast or std::bad_variant_access where link or bus is of the other type:
+  /// Configuration has seen to it that none is.
   BusType bus_type() const final { return BusType::Canopen; }
   std::unique_ptr<axis::Axis> make_axis(const DriveConfiguration& drive, const Configuration& all,
                                         BusLink& link) const final;
@@ -80,6 +82,7 @@ class CanDriveKind : public DriveKind {
 /// A kind of drive on a serial line with SilverLode's protocol.
 class LineDriveKind : public DriveKind {
  public:
+  /// As CanDriveKind, for the other type.
   BusType bus_type() const final { return BusType::Silverlode; }
   std::unique_ptr<axis::Axis> make_axis(const DriveConfiguration& drive, const Configuration& all,
                                         BusLink& link) const final;

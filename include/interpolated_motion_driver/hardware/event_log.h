@@ -7,22 +7,25 @@
 
 namespace interpolated_motion::hardware {
 
+/// As rosconsole's levels. Error: something does not work until it is seen to.
 enum class Severity { Debug, Info, Warning, Error };
 
 /// One sentence for the log.
 struct LogEntry {
-  Severity severity = Severity::Info;
-  std::string text;
+  Severity severity = Severity::Info;  ///< how the node logs it
+  std::string text;                    ///< names the bus, joint or parameter it is about
 };
 
 /// Sentences waiting to be taken by whoever logs. When nobody does, the oldest are forgotten.
 class EventLog {
  public:
+  /// When 1000 wait, the oldest is forgotten.
   void add(Severity severity, std::string text) {
     if (entries_.size() == kCapacity) entries_.pop_front();
     entries_.push_back({severity, std::move(text)});
   }
 
+  /// The oldest; empty when none waits.
   std::optional<LogEntry> take() {
     if (entries_.empty()) return std::nullopt;
     LogEntry entry = std::move(entries_.front());

@@ -19,12 +19,14 @@ class ParameterReader {
   /// empty.
   ParameterReader(const YAML::Node& node, std::string path);
 
+  /// Whether the key is there; it does not count as known by that.
   bool has(const std::string& key) const;
 
   /// A number within [`low`, `high`]; `fallback` when the key is missing.
   double number(const std::string& key, double fallback, double low, double high);
   /// As above, but the key must be there.
   double required_number(const std::string& key, double low, double high);
+  /// The same for whole numbers, and without a range for the other types.
   std::int64_t integer(const std::string& key, std::int64_t fallback, std::int64_t low, std::int64_t high);
   std::int64_t required_integer(const std::string& key, std::int64_t low, std::int64_t high);
   bool boolean(const std::string& key, bool fallback);

@@ -29,6 +29,7 @@ class PathAudit {
   /// One sample of the drive while it interpolates.
   void add(const DemandSample& sample);
 
+  /// Samples compared since begin() or clear(); both deviations are magnitudes, 0 without samples.
   std::uint64_t samples() const { return samples_; }
   double worst_deviation() const { return worst_; }  ///< counts
   double final_deviation() const { return final_; }  ///< counts, at the last sample compared

@@ -21,6 +21,7 @@ class SerialLink : public BusLink {
   SerialLink(const BusConfiguration& configuration, transport::SerialLine& line,
              std::unique_ptr<BusDevice> device = nullptr);
 
+  /// Axes add their devices to it; it lives as long as the link.
   silverlode::LineMaster& master() { return master_; }
 
   /// What the axes of one kind share on this line: empty until the first one puts it there. It ends before
@@ -51,8 +52,8 @@ class SerialLink : public BusLink {
   std::map<const DriveKind*, std::any> shared_;
   std::string received_;  ///< the line being received
   struct Sent {
-    std::string text;
-    HostTime time{};
+    std::string text;  ///< without the CR
+    HostTime time{};   ///< of its last bit on the line, computed
   };
   std::vector<Sent> sent_;  ///< not yet shown to the observer
   std::uint64_t requests_ = 0;

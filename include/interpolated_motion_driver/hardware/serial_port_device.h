@@ -12,6 +12,7 @@ class SerialPortDevice : public BusDevice {
   /// may come.
   SerialPortDevice(EventLoop loop, transport::SerialPortParameters parameters, HostTime now);
 
+  /// For the link of the bus; lives as long as the device, whether or not the port is there.
   transport::SerialLine& line() { return line_; }
 
   bool poll(HostTime now) override { return line_.poll_port(now); }

@@ -12,6 +12,7 @@ class SocketcanDevice : public BusDevice {
   /// error: it may come.
   SocketcanDevice(EventLoop loop, transport::SocketcanParameters parameters, HostTime now);
 
+  /// For the link of the bus; lives as long as the device, whether or not the interface is there.
   transport::CanBus& bus() { return bus_; }
 
   bool poll(HostTime now) override;

@@ -16,6 +16,7 @@ enum class CipCommand { Position, Velocity, Acceleration };
 
 /// Settings of a fine interpolator. Units: the command's own (e.g. rad, rad/s), and s.
 struct CipParameters {
+  /// Decides which orders there are, and the unit of `deceleration`.
   CipCommand command = CipCommand::Position;
   int order = 3;  ///< of the polynomial: 1..3 for position, 1..2 for velocity, 1 for acceleration
   HostDuration period = std::chrono::milliseconds(10);  ///< controller update period T, 1 ns or more
@@ -97,18 +98,18 @@ class CipInterpolator {
 
  private:
   struct Command {
-    SystemTime stamp{};
-    double value = 0.0;
+    SystemTime stamp{};  ///< t1: when `value` is to be reached
+    double value = 0.0;  ///< in the unit of the commands
   };
 
   struct Blend {
-    SystemTime begin{};
-    CubicHermite correction;
+    SystemTime begin{};       ///< when the late command came into effect
+    CubicHermite correction;  ///< added to the output: from the step to nothing, over `blend`
   };
 
   struct Stop {
-    SystemTime begin{};
-    CipSample from;
+    SystemTime begin{};  ///< when the ride-through was over
+    CipSample from;      ///< output at `begin`
   };
 
   static constexpr std::size_t kCommands = 8;  // the four in effect, and four that are early

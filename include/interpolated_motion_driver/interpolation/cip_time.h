@@ -11,7 +11,7 @@ struct CipSystemClock {
   using rep = duration::rep;
   using period = duration::period;
   using time_point = std::chrono::time_point<CipSystemClock>;
-  static constexpr bool is_steady = false;
+  static constexpr bool is_steady = false;  ///< System Time may be set while it runs
 };
 
 using SystemTime = CipSystemClock::time_point;

@@ -39,6 +39,7 @@ struct ImsState {
   std::int64_t velocity = 0;  ///< units, signed
 };
 
+/// Exact: whole numbers, and both are the drive's own.
 inline bool operator==(const ImsState& a, const ImsState& b) {
   return a.sum == b.sum && a.velocity == b.velocity;
 }

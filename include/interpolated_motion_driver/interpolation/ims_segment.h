@@ -15,6 +15,7 @@ struct ImsSegment {
   std::int32_t velocity = 0;  ///< 0..2^31-1 (2^31 is the full scale of the velocity), a magnitude
 };
 
+/// Exact: the four whole numbers.
 inline bool operator==(const ImsSegment& a, const ImsSegment& b) {
   return a.time == b.time && a.position == b.position && a.acceleration == b.acceleration &&
          a.velocity == b.velocity;

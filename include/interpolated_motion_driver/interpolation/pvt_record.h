@@ -14,6 +14,7 @@ struct PvtRecord {
   std::uint8_t time = 0;  ///< ms, 1..255; 0 ends the mode without an error
 };
 
+/// Exact: the three whole numbers.
 inline bool operator==(const PvtRecord& a, const PvtRecord& b) {
   return a.position == b.position && a.velocity == b.velocity && a.time == b.time;
 }

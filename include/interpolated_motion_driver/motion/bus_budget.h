@@ -10,8 +10,8 @@ namespace interpolated_motion::motion {
 
 /// The records one axis will send over a bus, and how long each keeps the bus.
 struct BusDemand {
-  std::vector<axis::RecordSlot> slots;
-  double record_bus_time = 0.0;  ///< s
+  std::vector<axis::RecordSlot> slots;  ///< in goal time, the same zero for all axes
+  double record_bus_time = 0.0;         ///< s
 };
 
 /// A record that would come too late.

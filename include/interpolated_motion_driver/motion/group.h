@@ -21,12 +21,12 @@
 namespace interpolated_motion::motion {
 
 struct GroupParameters {
-  trajectory::GoalRules rules;
-  trajectory::Tolerances tolerances;
+  trajectory::GoalRules rules;        ///< names, order and limits of the joints
+  trajectory::Tolerances tolerances;  ///< where a goal has none of its own
   HostDuration settle_timeout =
       std::chrono::milliseconds(500);  ///< used where a goal allows no time for settling
-  bool enable_on_start = true;
-  StreamParameters stream;
+  bool enable_on_start = true;         ///< once all drives are configured, without being asked
+  StreamParameters stream;             ///< delays and patience with setpoints
 };
 
 /// A group of axes that move together, on any mix of buses and kinds of drives. A goal goes through: checked

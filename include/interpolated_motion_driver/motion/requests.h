@@ -10,6 +10,8 @@
 
 namespace interpolated_motion::motion {
 
+/// What can be asked of a group. ShutDown differs from Disable in what is said to the goal that it ends,
+/// ClearBuffers from Halt in its message: every stop leaves the FIFOs empty.
 enum class RequestKind { Enable, Disable, ShutDown, ResetFaults, Halt, ClearBuffers };
 
 /// Requests that wait until the group has reached the state they ask for.
@@ -26,8 +28,8 @@ class Requests {
 
  private:
   struct Pending {
-    RequestId id;
-    RequestKind kind;
+    RequestId id;      ///< as add() has returned it
+    RequestKind kind;  ///< decides which states settle it
   };
 
   RequestId next_ = 1;

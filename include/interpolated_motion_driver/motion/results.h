@@ -14,7 +14,7 @@ using GoalId = std::uint64_t;
 
 /// What the group answers when it takes a goal.
 struct GoalAcceptance {
-  GoalId id = 0;
+  GoalId id = 0;                      ///< never 0 for a goal that was accepted
   GoalTime duration{0.0};             ///< from the start of motion to the last waypoint, lead-in included
   std::vector<std::string> warnings;  ///< e.g. points dropped because they lie in the past
 };
@@ -27,10 +27,10 @@ enum class GoalOutcome {
 
 /// How an accepted goal ended. Reported once, when the motion has ended.
 struct GoalResult {
-  GoalId id = 0;
-  GoalOutcome outcome = GoalOutcome::Succeeded;
-  GoalError code = GoalError::InvalidGoal;  ///< only for Aborted
-  std::string text;                         ///< for the user; may be empty for Succeeded
+  GoalId id = 0;                                 ///< as in its GoalAcceptance
+  GoalOutcome outcome = GoalOutcome::Succeeded;  ///< decides whether `code` means anything
+  GoalError code = GoalError::InvalidGoal;       ///< only for Aborted
+  std::string text;                              ///< for the user; may be empty for Succeeded
 };
 
 /// Names a request (enable, reset, halt, clear) that takes time.
@@ -38,9 +38,9 @@ using RequestId = std::uint64_t;
 
 /// How a request ended.
 struct RequestResult {
-  RequestId id = 0;
-  bool success = false;
-  std::string message;  ///< what was done, or what prevented it and what to do
+  RequestId id = 0;      ///< as Group::request() has returned it
+  bool success = false;  ///< the group is in the state that was asked for
+  std::string message;   ///< what was done, or what prevented it and what to do
 };
 
 }  // namespace interpolated_motion::motion

@@ -49,8 +49,8 @@ class SetpointPath {
  private:
   /// What is known of one joint's stream: the last setpoints, the newest first.
   struct Knot {
-    double time = 0.0;  ///< s
-    double position = 0.0;
+    double time = 0.0;      ///< s
+    double position = 0.0;  ///< rad
   };
   using Knots = std::array<Knot, 3>;
 

@@ -14,8 +14,8 @@ namespace interpolated_motion::motion {
 
 /// Everything that is published of one joint, at one instant.
 struct JointSnapshot {
-  std::string joint;
-  std::string bus;
+  std::string joint;  ///< in the order of the configuration, as all joints here
+  std::string bus;    ///< as the configuration names it
 
   trajectory::State
       desired;  ///< the committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2)
@@ -23,16 +23,17 @@ struct JointSnapshot {
 
   bool online = false;           ///< the drive answers and its heartbeat arrives
   std::string state;             ///< CiA 402 state, or its SilverLode equal, as text
-  std::uint16_t statusword = 0;  ///< CiA 402 statusword 0x6041
-  std::int8_t mode = 0;          ///< modes of operation display 0x6061
+  std::uint16_t statusword = 0;  ///< CiA 402 statusword 0x6041; of SilverLode the polling status word
+  std::int8_t mode = 0;          ///< modes of operation display 0x6061; 0 of SilverLode
   double demand_position = 0.0;  ///< rad, the drive's own demand value
   double following_error = 0.0;  ///< rad, demand minus actual
   std::uint16_t error_code = 0;  ///< last EMCY error code since the last reset, 0 none
-  std::string error_text;
+  std::string error_text;        ///< what the code means; empty: none
 
   std::uint32_t capacity = 0;  ///< records the FIFO holds
   std::uint32_t fill = 0;  ///< records in the FIFO, estimated from time and corrected by the drive's reports
   double fill_time = 0.0;  ///< s of motion left in the FIFO
+  /// As axis::AxisStatus: what the drive says of its FIFO and of the records in it.
   bool underflow_warning = false;
   bool overflow_warning = false;
   bool velocity_warning = false;
@@ -51,7 +52,7 @@ struct ReplyDelay {
 };
 
 struct BusSnapshot {
-  std::string name;
+  std::string name;                   ///< as the configuration names it
   double load = 0.0;                  ///< 0..1, over the last second
   std::uint64_t frames_sent = 0;      ///< frames of this host; on a serial line, requests
   std::uint64_t frames_received = 0;  ///< frames of others; on a serial line, replies
@@ -84,21 +85,21 @@ const char* to_string(GroupState state);
 
 /// One consistent view of the whole driver.
 struct Snapshot {
-  HostTime time{};  ///< at which all this was so
-  GroupState state = GroupState::Starting;
-  std::string fault;            ///< why the group is in Fault; empty otherwise
-  GoalId active_goal = 0;       ///< 0 when none
+  HostTime time{};                          ///< at which all this was so
+  GroupState state = GroupState::Starting;  ///< as of `time`
+  std::string fault;                        ///< why the group is in Fault; empty otherwise
+  GoalId active_goal = 0;                   ///< 0 when none
   GoalTime goal_time{0.0};      ///< of the active goal, on the play-back clock; time_from_start of `desired`
   GoalTime goal_duration{0.0};  ///< of the active goal, without its lead-in
-  StreamCounters setpoints;
-  std::vector<JointSnapshot> joints;
-  std::vector<BusSnapshot> buses;
+  StreamCounters setpoints;     ///< since the driver was started
+  std::vector<JointSnapshot> joints;  ///< in the order of the configuration
+  std::vector<BusSnapshot> buses;     ///< in the order of the configuration
 };
 
 /// Figures of the last goal that moved, for `scripts/demo` and for benches.
 struct JointReport {
-  std::string joint;
-  std::string bus;
+  std::string joint;                 ///< in the order of the configuration
+  std::string bus;                   ///< as the configuration names it
   std::uint64_t records_sent = 0;    ///< for this goal
   std::uint32_t minimum_fill = 0;    ///< records, while interpolating and more were to come
   std::uint32_t underruns = 0;       ///< during this goal
@@ -110,10 +111,10 @@ struct JointReport {
 };
 
 struct MotionReport {
-  bool valid = false;  ///< false before the first goal has moved
-  GoalId goal = 0;
-  GoalTime duration{0.0};  ///< its lead-in included; 0 for a stream
-  std::vector<JointReport> joints;
+  bool valid = false;                                         ///< false before the first goal has moved
+  GoalId goal = 0;                                            ///< 0 for a stream
+  GoalTime duration{0.0};                                     ///< its lead-in included; 0 for a stream
+  std::vector<JointReport> joints;                            ///< in the order of the configuration
   std::vector<std::pair<std::string, double>> peak_bus_load;  ///< per bus: name, 0..1
 };
 

@@ -30,9 +30,9 @@ class HardwareThread {
 
   /// Who is told what, on the thread itself: the functions must hand the matter on without waiting.
   struct Listener {
-    std::function<void(const motion::GoalResult&)> goal_ended;
-    std::function<void(const Hardware::LogEntry&)> log;
-    std::function<void(const std::string& error)> failed;  ///< an exception has ended the thread
+    std::function<void(const motion::GoalResult&)> goal_ended;  ///< once for each goal that was accepted
+    std::function<void(const Hardware::LogEntry&)> log;         ///< in the order in which they arose
+    std::function<void(const std::string& error)> failed;       ///< an exception has ended the thread
   };
 
   struct Settings {

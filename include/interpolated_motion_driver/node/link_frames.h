@@ -16,8 +16,8 @@ namespace interpolated_motion::node {
 class LinkFrames {
  public:
   struct Frame {
-    std::string parent;
-    std::string child;
+    std::string parent;        ///< link, as the URDF names it
+    std::string child;         ///< link, as the URDF names it
     tf2::Transform transform;  ///< of the child in the parent; m
   };
 
@@ -35,11 +35,11 @@ class LinkFrames {
 
  private:
   struct Movable {
-    std::string parent;
-    std::string child;
-    tf2::Transform origin;
-    tf2::Vector3 axis;
-    bool prismatic = false;
+    std::string parent;         ///< link, as the URDF names it
+    std::string child;          ///< link, as the URDF names it
+    tf2::Transform origin;      ///< of the child in the parent at position 0; m
+    tf2::Vector3 axis;          ///< of unit length, in the frame of the joint
+    bool prismatic = false;     ///< moves along `axis`, m; else turns about it, rad
     std::size_t driven_by = 0;  ///< index of the driven joint
     double multiplier = 1.0;    ///< of its position, and
     double offset = 0.0;        ///< what is added, for a joint that mimics it

@@ -10,9 +10,9 @@ namespace interpolated_motion::node {
 
 /// Everything a node is configured with.
 struct LoadedConfiguration {
-  NodeParameters node;
-  hardware::Configuration driver;
-  RobotDescription robot_description;
+  NodeParameters node;                 ///< what the node reads for itself: rates, topics, logs
+  hardware::Configuration driver;      ///< buses, drives and limits, checked
+  RobotDescription robot_description;  ///< where the limits came from
 };
 
 /// Reads the private parameters of the node (`private_node`) and the robot description: the parameter

@@ -25,9 +25,9 @@ class PeriodicCalls {
 
  private:
   struct Call {
-    HostDuration period;
-    HostTime due;
-    std::function<void()> function;
+    HostDuration period;             ///< above 0
+    HostTime due;                    ///< when it is called next, a multiple of `period` after the origin
+    std::function<void()> function;  ///< called by poll(), on its caller's thread
   };
 
   const HostTime origin_;

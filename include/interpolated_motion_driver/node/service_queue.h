@@ -11,6 +11,7 @@ class ServiceQueue {
   /// `threads`: calls that may be under way at a time.
   explicit ServiceQueue(unsigned threads) : spinner_(threads, &queue_) {}
 
+  /// To be set at the node handles that advertise the services. Calls wait in it until start().
   ros::CallbackQueue& queue() { return queue_; }
   void start() { spinner_.start(); }
   /// Waits until the calls under way are answered; those that come later never are.

@@ -55,15 +55,15 @@ class WireLog {
 
  private:
   struct Text {
-    std::array<char, kLongestText> characters;
-    std::size_t length;
-    HostTime time;
-    bool from_host;
+    std::array<char, kLongestText> characters;  ///< the first `length`
+    std::size_t length;                         ///< at most kLongestText
+    HostTime time;                              ///< as SerialText has it
+    bool from_host;                             ///< else from a drive
   };
   using Traffic = std::variant<canopen::ReceivedFrame, Text>;
   struct Entry {
     std::size_t bus;  ///< index in buses_
-    Traffic traffic;
+    Traffic traffic;  ///< a frame or a line of text
   };
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }

@@ -12,8 +12,8 @@ struct Extremum {
 
 /// Smallest and largest value over an interval; at equal values the earliest found.
 struct Range {
-  Extremum minimum;
-  Extremum maximum;
+  Extremum minimum;  ///< not above any value over the interval
+  Extremum maximum;  ///< not below any value over the interval
 };
 
 /// Exact range of the position, velocity or acceleration of a polynomial over local times [from, to], `from`

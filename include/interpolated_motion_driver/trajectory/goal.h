@@ -22,7 +22,7 @@ struct Waypoint {
 /// As control_msgs/JointTolerance: a positive value sets the tolerance, 0 keeps the default, a negative one
 /// erases it.
 struct JointTolerance {
-  std::string joint;
+  std::string joint;          ///< of several entries for one joint each is applied in turn
   double position = 0.0;      ///< rad or m
   double velocity = 0.0;      ///< per s
   double acceleration = 0.0;  ///< per s^2
@@ -30,8 +30,8 @@ struct JointTolerance {
 
 /// A FollowJointTrajectory goal, or a trajectory of the command topic, without ROS types.
 struct Goal {
-  std::vector<std::string> joint_names;
-  std::vector<Waypoint> points;
+  std::vector<std::string> joint_names;  ///< in any order, none twice
+  std::vector<Waypoint> points;          ///< times ascending; none: a request to stop
   /// Host time of goal time 0 (the message's stamp). Empty: as soon as possible (stamp 0).
   std::optional<HostTime> start;
   std::vector<JointTolerance> path_tolerance;

@@ -30,18 +30,15 @@ struct GoalPlan {
 /// used).
 ///
 /// - First point at time 0 (earlier than `kMinimumStep`): the start. It must be within `start_tolerance` of
-/// the present
-///   position; if any joint is farther than `lead_in_threshold`, all joints first move there, rest to rest,
-///   at no more than half of their limits, in -`lead_in` .. 0. Nearer than that the path begins at the point
-///   itself.
+///   the present position; if any joint is farther than `lead_in_threshold`, all joints first move there,
+///   rest to rest, at no more than half of their limits, in -`lead_in` .. 0. Nearer than that the path begins
+///   at the point itself.
 /// - First point at time 0 with a velocity above `kRestVelocity`: it cannot be met from rest. As in
 ///   joint_trajectory_controller the present state takes its place; a warning says so.
-/// - First point later: the path bridges from rest at the present position, beginning at 0. `start_tolerance`
-/// does not
-///   apply, the limits do.
+/// - First point later: the path bridges from rest at the present position, beginning at 0.
+///   `start_tolerance` does not apply, the limits do.
 /// - Positions of a continuous joint are shifted, all alike, by the multiple of 2 pi that brings the first
-/// point nearest to
-///   the present position.
+///   point nearest to the present position.
 /// - The last point must be at rest (`kRestVelocity`).
 /// - The whole path of every named joint is within `limits`, between the points too.
 ///

@@ -25,8 +25,8 @@ inline constexpr double kRestAcceleration = 1e-3;
 
 /// What a goal is held against. The vectors have one entry per joint, in the order of `joints`.
 struct GoalRules {
-  std::vector<std::string> joints;
-  std::vector<JointLimits> limits;
+  std::vector<std::string> joints;  ///< all of the group; a goal may name them in another order
+  std::vector<JointLimits> limits;  ///< of whole paths, between the points too
   /// How far (rad or m) the first point of a goal may be from the present position.
   std::vector<double> start_tolerance;
   /// Deviation (rad or m) from the first point below which no lead-in is needed, e.g. one encoder count.

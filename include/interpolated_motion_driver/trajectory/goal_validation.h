@@ -36,12 +36,10 @@ bool is_stop_request(const Goal& goal);
 /// Refused are:
 /// - joint names as in `joint_columns`;
 /// - InvalidGoal: positions missing, or positions, velocities, accelerations or efforts whose number is
-/// neither 0 nor that of
-///   the joint names; numbers that are not finite or beyond `kLargestValue`; times that are negative or
-///   beyond `kLatestTime`; times not strictly increasing; tolerances that are not finite;
+///   neither 0 nor that of the joint names; numbers that are not finite or beyond `kLargestValue`; times that
+///   are negative or beyond `kLatestTime`; times not strictly increasing; tolerances that are not finite;
 /// - InvalidJoints: a tolerance for a joint that is not in `joints` (joint_trajectory_controller ignores it;
-/// a tolerance that
-///   somebody relies on must not be lost to a typing error).
+///   a tolerance that somebody relies on must not be lost to a typing error).
 /// Velocities or accelerations in some points only are well formed, see `build_path`.
 std::optional<Refusal> validate_goal(const Goal& goal, const std::vector<std::string>& joints,
                                      bool allow_partial);

@@ -16,6 +16,7 @@ namespace interpolated_motion::trajectory {
 inline constexpr double kPositionSlack = 1e-6;
 inline constexpr double kRateSlack = 1e-4;
 
+/// What a limit or a tolerance is about: in rad or m, per s, per s^2.
 enum class Quantity { Position, Velocity, Acceleration };
 
 /// "position", "velocity" or "acceleration".
@@ -23,11 +24,11 @@ const char* name(Quantity quantity);
 
 /// Where a path leaves its limits: the extreme value of the first piece that does.
 struct LimitViolation {
-  Quantity quantity = Quantity::Position;
-  GoalTime time{0.0};    ///< of that value
-  double value = 0.0;    ///< rad or m, per s, per s^2
-  double minimum = 0.0;  ///< allowed, in the same unit; slack not included
-  double maximum = 0.0;  ///< allowed, in the same unit; slack not included
+  Quantity quantity = Quantity::Position;  ///< decides the unit of the three values
+  GoalTime time{0.0};                      ///< of that value
+  double value = 0.0;                      ///< rad or m, per s, per s^2
+  double minimum = 0.0;                    ///< allowed, in the same unit; slack not included
+  double maximum = 0.0;                    ///< allowed, in the same unit; slack not included
 };
 
 /// The first piece of `path` with a position, velocity or acceleration outside `limits`, in exact extrema,

@@ -42,11 +42,11 @@ Tolerances merge_tolerances(const Tolerances& defaults, const std::vector<std::s
 
 /// The first joint out of tolerance.
 struct ToleranceViolation {
-  std::size_t joint = 0;  ///< index
-  Quantity quantity = Quantity::Position;
-  double error = 0.0;           ///< desired - actual in `quantity`
-  double tolerance = 0.0;       ///< of `quantity`
-  double position_error = 0.0;  ///< desired - actual position, whatever `quantity` is
+  std::size_t joint = 0;                   ///< index
+  Quantity quantity = Quantity::Position;  ///< decides the unit of `error` and `tolerance`
+  double error = 0.0;                      ///< desired - actual in `quantity`
+  double tolerance = 0.0;                  ///< of `quantity`
+  double position_error = 0.0;             ///< desired - actual position, whatever `quantity` is
 };
 
 /// Compares desired with actual states; all vectors have one entry per joint. Nothing if all are within. No

@@ -12,17 +12,17 @@ enum class CanControllerState { ErrorActive, ErrorWarning, ErrorPassive, BusOff,
 
 /// A network interface as rtnetlink describes it.
 struct CanInterface {
-  std::string name;
+  std::string name;                  ///< as `ip link` shows it: "can0"
   int index = 0;                     ///< changes when an interface is removed and comes back
   bool up = false;                   ///< switched on by `ip link set ... up`
   bool can = false;                  ///< a CAN interface at all
   bool fd = false;                   ///< takes CAN FD frames too; classic ones travel over it all the same
   std::string kind;                  ///< "vcan", "vxcan", "can", "slcan"; empty when the driver does not say
   std::uint32_t transmit_queue = 0;  ///< txqueuelen, frames
-  std::optional<std::uint32_t> bitrate;  ///< bit/s; none for interfaces without bit timing, as vcan
-  std::optional<CanControllerState> controller;
-  std::optional<std::uint32_t> restart_ms;  ///< pause before the kernel ends bus-off; 0: never by itself
-  bool listen_only = false;                 ///< it does not send, nor acknowledge
+  std::optional<std::uint32_t> bitrate;          ///< bit/s; none for interfaces without bit timing, as vcan
+  std::optional<CanControllerState> controller;  ///< none where there is no controller, as vcan
+  std::optional<std::uint32_t> restart_ms;       ///< pause before the kernel ends bus-off; 0: never by itself
+  bool listen_only = false;                      ///< it does not send, nor acknowledge
 };
 
 /// Asks the kernel about an interface. Empty when there is none of that name. Does not wait for hardware.

@@ -10,7 +10,7 @@ namespace interpolated_motion::transport {
 
 /// A character received, and the time of its last bit.
 struct ReceivedCharacter {
-  char value = 0;
+  char value = 0;   ///< the 8 data bits
   HostTime time{};  ///< as well as the line can tell it
 };
 

@@ -71,6 +71,7 @@ class SerialPortLine : public SerialLine {
   const std::string& status_text() const;
   /// What could not be had but is not needed (RS-485 mode, low latency), a sentence each.
   const std::vector<std::string>& advice() const;
+  /// Since this was made, whatever has become of the device.
   SerialPortCounters counters() const;
 
   /// Calls `handler` once when characters can be read, or, with an error, when the port has been closed or is

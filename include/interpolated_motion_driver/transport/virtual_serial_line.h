@@ -13,6 +13,7 @@
 
 namespace interpolated_motion::transport {
 
+/// Who talks; on a two-wire line the other drives hear that too.
 enum class SerialDirection { HostToDrive, DriveToHost };
 
 /// How host and drives are connected.
@@ -26,7 +27,7 @@ enum class SerialWiring {
 struct SerialLineParameters {
   int baud = 57'600;            ///< bit/s, 300..250000
   int bits_per_character = 11;  ///< start, data and stop bits: 8N2 has 11, 8N1 has 10; 10..12
-  SerialWiring wiring = SerialWiring::Rs485TwoWire;
+  SerialWiring wiring = SerialWiring::Rs485TwoWire;  ///< decides who hears whom, and whose characters collide
   bool echo = false;                ///< the host hears its own characters, as through an RS-485 adapter that
                                     ///< does not switch its receiver off
   std::size_t host_buffer = 4'096;  ///< characters, 1 or more: the host's transmit buffer
@@ -133,9 +134,9 @@ class VirtualSerialLine {
   class HostPort;
 
   struct Fault {
-    int lose = 0;
-    int garble = 0;
-    unsigned char mask = 0;
+    int lose = 0;            ///< characters still to be taken away, see lose_next()
+    int garble = 0;          ///< characters still to be spoilt, see garble_next()
+    unsigned char mask = 0;  ///< bits that are inverted in those
   };
 
   Wire& wire_of(const Talker& talker);

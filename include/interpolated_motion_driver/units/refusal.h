@@ -18,8 +18,8 @@ enum class GoalError {
 /// joint_trajectory_controller uses for the case, where it has any, and goes on with a sentence that names
 /// joint, point, value, allowed range and what to do.
 struct Refusal {
-  GoalError code = GoalError::InvalidGoal;
-  std::string text;
+  GoalError code = GoalError::InvalidGoal;  ///< of the action's result
+  std::string text;                         ///< for the user, as above
 };
 
 }  // namespace interpolated_motion

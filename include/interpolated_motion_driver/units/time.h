@@ -6,11 +6,12 @@
 
 /// The kinds of time in the driver. Each has its own type, so they mix only through a named conversion:
 ///
-/// | type                | clock                                   | used for |
-/// |---------------------|-----------------------------------------|-------------------------------------------|
-/// | `HostTime`          | the host's monotonic clock              | everything on the host, bus time stamps
-/// | | `GoalTime`          | start of a trajectory = 0               | paths, tolerances, knots | |
-/// `DriveMilliseconds` | samples of one EPOS drive, own crystal  | PVT records (1..255 ms each) |
+/// | type                | clock                                  | used for                        |
+/// |---------------------|----------------------------------------|---------------------------------|
+/// | `HostTime`          | the host's monotonic clock             | the host, time stamps of buses  |
+/// | `GoalTime`          | start of a trajectory = 0              | paths, tolerances, knots        |
+/// | `DriveMilliseconds` | samples of one EPOS drive, own crystal | PVT records, 1..255 ms each     |
+/// | `ServoTicks`        | ticks of one SilverLode, own crystal   | IMS segments                    |
 ///
 /// ROS time exists in `node/` only. The host clock is never read below `transport/` and `node/`: time is a
 /// parameter.
@@ -22,7 +23,7 @@ struct HostClock {
   using rep = duration::rep;
   using period = duration::period;
   using time_point = std::chrono::time_point<HostClock>;
-  static constexpr bool is_steady = true;
+  static constexpr bool is_steady = true;  ///< the host's clock never goes back and is never set
 };
 
 using HostDuration = HostClock::duration;

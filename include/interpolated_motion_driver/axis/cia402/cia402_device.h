@@ -29,6 +29,7 @@ class Cia402Device {
   virtual bool has_reported(HostTime since) const = 0;
   /// The drive is configured and reports.
   virtual void on_started() {}
+  /// The drive shows the mode it has been put into (0x6061); its power stage is off.
   virtual void on_mode_selected() {}
   /// The power stage is about to be enabled; called again and again until it is. `commanded`: the controlword
   /// that does it has been sent.
@@ -36,9 +37,13 @@ class Cia402Device {
   /// The controlword that makes an enabled drive brake, whatever it is doing, and rest.
   virtual std::uint16_t stop_word() const = 0;
 
+  /// What the drive has told by its PDOs, one object for the device's life: the power stage keeps a
+  /// reference, and sets `mode` when it has read 0x6061.
   virtual Cia402Report& report() = 0;
   virtual const Cia402Report& report() const = 0;
+  /// Latest position and velocity, in joint units; one object for the device's life.
   virtual const AxisFeedback& feedback() const = 0;
+  /// An EMCY message in words, by the drive's own list of codes, for Axis::fault_text().
   virtual std::string text_of(const canopen::Emcy& emcy) const = 0;
   /// What the drive tells of a fault besides its EMCY.
   virtual std::string fault_detail() const { return {}; }

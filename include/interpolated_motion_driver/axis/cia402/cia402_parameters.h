@@ -8,8 +8,8 @@ namespace interpolated_motion::axis {
 
 /// Settings of one CiA 402 drive on CANopen.
 struct Cia402AxisParameters : AxisParameters {
-  double record_bus_time = 0.0;  ///< s of bus per motion record, as share of what records may fill
-  std::uint8_t host_node_id = 127;
+  double record_bus_time = 0.0;     ///< s of bus per motion record, as share of what records may fill
+  std::uint8_t host_node_id = 127;  ///< 1..127: whose heartbeat the drive watches
   HostDuration heartbeat_period = std::chrono::milliseconds(100);  ///< of the drive, 0x1017
   HostDuration heartbeat_timeout =
       std::chrono::milliseconds(500);  ///< the drive's patience with the host, 0x1016

@@ -16,15 +16,19 @@ class ControlwordLink {
   ControlwordLink(canopen::Master& master, canopen::NodeLink& node, int rpdo)
       : master_(master), node_(node), rpdo_(rpdo) {}
 
+  /// Queues `word` for the bus. Where the bus's queue is full nothing is queued, and word() and sent_at()
+  /// stay.
   void send(std::uint16_t word, HostTime now);
-  std::uint16_t word() const { return word_; }  ///< sent last
-  HostTime sent_at() const { return sent_at_; }
+  std::uint16_t word() const { return word_; }   ///< sent last
+  HostTime sent_at() const { return sent_at_; }  ///< queued last; the epoch: never
 
   /// The last controlword and a SYNC behind it have been on the bus.
   bool applied() const;
   /// The last controlword has had its time: if there is no effect, it is to be sent again.
   bool overdue(HostTime now) const { return now - sent_at_ >= kRepeat; }
 
+  /// What walk() has come to. NeedsFaultReset: the drive is in Fault, out of which only reset() leads. A
+  /// target that cannot be commanded stays UnderWay, until the caller's patience ends.
   enum class Progress { Arrived, UnderWay, NeedsFaultReset };
 
   /// Sends what leads from `current` to `target`, one step at a call; `since`: when that walk began.

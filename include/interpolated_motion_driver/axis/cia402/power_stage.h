@@ -15,11 +15,11 @@ namespace interpolated_motion::axis {
 
 /// What a CiA 402 power stage is to be told about its drive.
 struct Cia402Settings {
-  std::string joint;
-  cia402::Mode mode;
-  int controlword_rpdo;
-  HostDuration heartbeat_timeout;
-  HostDuration bring_up_timeout;
+  std::string joint;               ///< for joint() and messages
+  cia402::Mode mode;               ///< written to 0x6060 before each enabling, and awaited in 0x6061
+  int controlword_rpdo;            ///< 1..4: the synchronous RPDO that carries 0x6040
+  HostDuration heartbeat_timeout;  ///< for messages; the watch itself is the bus master's
+  HostDuration bring_up_timeout;   ///< longest wait for the drive's first answer
 };
 
 /// A CiA 402 drive on CANopen from the first question to the enabled power stage, and back: found,

@@ -21,15 +21,18 @@ class SdoSequence {
   using Check = std::function<std::optional<std::string>(const canopen::SdoResult&)>;
 
   struct Step {
-    canopen::ObjectAddress address;
+    canopen::ObjectAddress address;          ///< of the read; of a write the same as in `write`
     std::optional<canopen::SdoWrite> write;  ///< empty: a read
     Check check;                             ///< empty: the step must succeed
   };
 
+  /// Idle: nothing has been started, or it was cancelled. Done and Failed last until the next start().
   enum class State { Idle, Running, Done, Failed };
 
+  /// `node` must outlive the sequence, whose SDO client it uses: nobody else may while it runs.
   explicit SdoSequence(canopen::NodeLink& node) : node_(node) {}
 
+  /// Without `check` the step must succeed.
   static Step read(canopen::ObjectAddress address, Check check = {});
   static Step write(const canopen::SdoWrite& write, Check check = {});
 
@@ -39,11 +42,16 @@ class SdoSequence {
   void insert(std::vector<Step> steps);
   /// Puts steps in the place of all those still to be done.
   void replace_rest(std::vector<Step> steps);
+  /// Gives up what is left: a transfer under way is aborted, and the sequence is Idle.
   void cancel();
 
+  /// Takes the outcome that has come and begins the next step. A step without an answer is repeated, twice at
+  /// most.
   void poll(HostTime now);
+  /// When the drive's answer is overdue; kNever while none is awaited.
   HostTime next_deadline() const;
 
+  /// As of the latest start(), poll() or cancel().
   State state() const { return state_; }
   bool running() const { return state_ == State::Running; }
   /// Why the sequence failed: what was read or written, and how the drive answered.

@@ -15,7 +15,7 @@ namespace interpolated_motion::axis {
 
 /// What bring-up, and the first motion after it, have found out about a drive.
 struct EposFacts {
-  cia402::Identity identity;
+  cia402::Identity identity;                      ///< 0x1018:01 to :04
   std::uint32_t capacity = cia402::kFifoRecords;  ///< records, 0x60C4:01
   int velocity_notation = 0;                      ///< 0x608B: the drive's velocity unit is 10^notation rpm
   bool free_records_mapped = true;                ///< 0x60C4:02 comes by TPDO3
@@ -27,14 +27,16 @@ struct EposFacts {
   /// (0): the documents do not say; seen from the first report of a motion.
   std::optional<std::size_t> early_release;
 
+  /// rpm of the motor in one velocity unit of a record, 0.001..1.
   double velocity_unit_rpm() const;
 };
 
 /// The drive's limits for a joint, in rpm and rpm/s of the motor.
 struct MotorLimits {
-  double velocity = 0.0;
-  double acceleration = 0.0;
+  double velocity = 0.0;      ///< rpm, a magnitude
+  double acceleration = 0.0;  ///< rpm/s, a magnitude
 };
+/// `parameters.limits` through its transmission; `limit_margin` is not in it.
 MotorLimits motor_limits(const EposAxisParameters& parameters);
 
 /// The reads and writes that identify, verify and parameterise a drive in Pre-operational, in the order of

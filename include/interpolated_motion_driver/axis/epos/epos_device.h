@@ -31,9 +31,11 @@ class EposDevice final : public Cia402Device {
   std::string fault_detail() const override;
   std::string lost_by_restart() const override { return "its FIFO and settings"; }
 
+  /// As given to the constructor.
   canopen::Master& master() const { return master_; }
   canopen::NodeLink& node() const { return node_; }
   const EposAxisParameters& parameters() const { return parameters_; }
+  /// What bring-up has found out, forgotten at the next. To be changed by what a motion shows (FifoWatch).
   EposFacts& facts() { return facts_; }
   const EposFacts& facts() const { return facts_; }
   /// Errors of the FIFO that the drive has told, since the start.

@@ -25,6 +25,7 @@ class FifoLoader {
   FifoLoader(Cia402PowerStage& stage, RecordFeed& feed, RecordSender& sender, FifoWatch& watch)
       : stage_(stage), feed_(feed), sender_(sender), watch_(watch) {}
 
+  /// Begins to empty the FIFO; poll() goes on. For an enabled drive at rest that has its mode.
   void begin(HostTime now);
   /// True once the FIFO is filled; a failure is a fault of the power stage.
   bool poll(HostTime now);

@@ -34,6 +34,7 @@ class FifoWatch {
   /// Compares what the drive has reported since. Returns why the motion cannot go on.
   std::optional<std::string> check(HostTime now);
 
+  /// The loader misses `records` that were sent; they count in lost().
   void note_lost(std::uint32_t records) { lost_ += records; }
   std::uint32_t lost() const { return lost_; }                  ///< records, since the start
   std::uint32_t minimum_fill() const { return minimum_fill_; }  ///< while more were to come
@@ -41,8 +42,8 @@ class FifoWatch {
  private:
   /// Records that can be in the FIFO by what has been sent and how far the drive can have played.
   struct FillRange {
-    std::size_t least;
-    std::size_t most;
+    std::size_t least;  ///< included
+    std::size_t most;   ///< included
     bool contains(std::size_t used) const { return used >= least && used <= most; }
   };
 

@@ -15,7 +15,7 @@ namespace interpolated_motion::axis {
 
 /// What an EPOS drive is to play, encoded, before any of it has been sent.
 struct PvtPlan {
-  RecordFeed feed;
+  RecordFeed feed;                 ///< all records of the plan, none of them sent
   GoalTime start{0.0};             ///< goal time of the path's start
   GoalTime wait{0.0};              ///< from the start signal until then
   std::optional<HostTime> origin;  ///< host time of goal time 0, for a stream

@@ -32,12 +32,15 @@ class RecordFeed {
   /// Places left free, for the uncertainty of the clock at a knot.
   static constexpr std::size_t kSpare = 2;
 
+  /// Begins anew, nothing sent. The record with time 0 is put behind those of `stream`, which has none.
   void load(const encoding::PvtStream& stream, const FeedLimits& limits);
+  /// Nothing counts as sent any more. Only before a motion, while no record has been forgotten.
   void rewind() { sent_ = 0; }
 
   /// The record to send next, if one is due: there is a place for it although the drive may have played no
   /// more than `least_played`, and it lies within the horizon of `played` (s on the drive's clock).
   std::optional<PvtRecord> next(double least_played, double played) const;
+  /// The record that next() has given is on its way; once for each.
   void mark_sent();
 
   /// Where the records sent so far lead, as the drive counts its samples from the start of the plan.
@@ -46,6 +49,8 @@ class RecordFeed {
   /// all_sent().
   void replace_unsent(const encoding::PvtStream& stream);
 
+  /// Records of the plan and of them those sent, the one with time 0 and the forgotten ones included;
+  /// duration(): s on the drive's clock from the start to the last record, 0 without records.
   std::size_t size() const { return forgotten_ + records_.size(); }
   std::size_t sent() const { return sent_; }
   bool all_sent() const { return sent_ == size(); }
@@ -68,7 +73,7 @@ class RecordFeed {
 
  private:
   struct Entry {
-    PvtRecord record;
+    PvtRecord record;  ///< position in counts, velocity in the drive's unit
     double end = 0.0;  ///< s on the drive's clock
   };
   /// Sent records remembered, many times what a FIFO holds.

@@ -21,18 +21,21 @@ class CommandSequence {
   using Check = std::function<std::optional<std::string>(const silverlode::Outcome&)>;
 
   struct Step {
-    silverlode::Request request;
-    Check check;  ///< empty: the drive must accept the command
+    silverlode::Request request;  ///< repeated by the line master as far as it may be
+    Check check;                  ///< empty: the drive must accept the command
   };
 
+  /// Idle: nothing has been started, or it was cancelled. Done and Failed last until the next start().
   enum class State { Idle, Running, Done, Failed };
 
+  /// `device` must outlive the sequence; others may have requests of their own on it.
   explicit CommandSequence(silverlode::DeviceLink& device) : device_(device) {}
 
   /// Starts over with `steps`; what was running is given up.
   void start(std::vector<Step> steps, HostTime now);
   /// Puts steps before those still to be done.
   void insert(std::vector<Step> steps);
+  /// Gives up what is left, Idle. A command on the line goes on to its outcome, which take() no longer takes.
   void cancel();
 
   /// The host was away for so long: that is not the line's fault.
@@ -42,6 +45,7 @@ class CommandSequence {
   /// Takes the outcome if it belongs to this sequence.
   bool take(const silverlode::Outcome& outcome, HostTime now);
 
+  /// As of the latest start(), poll(), take() or cancel().
   State state() const { return state_; }
   bool running() const { return state_ == State::Running; }
   /// Why the sequence failed: what was sent, and how the drive answered.

@@ -36,6 +36,7 @@ class DriveCommands {
   Steps bring_up(const Steps& queue, SilverlodeFacts& facts);
   /// Switches the driver on, with the target where the motor stands, so that nothing moves.
   Steps enable();
+  /// Switches the motor driver off (DMD).
   Steps disable();
   /// Latched bits of both status words; those of the polling status word can be cleared once they have been
   /// read.
@@ -52,6 +53,7 @@ class DriveCommands {
   Step await_rest(int looks_left);
   /// Reads a register into `value`, which must outlive the sequence.
   Step read(std::uint16_t number, std::int32_t& value) const;
+  /// Reads register 1 into the status' feedback.
   Step read_position();
 
   /// Register 19, with which the drive brakes when its queue runs dry; of a stop by command. In its own

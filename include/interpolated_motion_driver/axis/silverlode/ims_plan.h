@@ -18,8 +18,8 @@ namespace interpolated_motion::axis {
 
 /// What a SilverLode drive is to play, before any of it has been sent.
 struct ImsPlan {
-  trajectory::Path path;
-  std::vector<RecordSlot> slots;
+  trajectory::Path path;           ///< rad or m over goal time
+  std::vector<RecordSlot> slots;   ///< goal time, as Axis::record_slots() gives them
   std::optional<HostTime> origin;  ///< host time of goal time 0, for a stream
 };
 

@@ -18,6 +18,8 @@ class ImsStart {
   /// `stage` must outlive this.
   ImsStart(SilverlodePowerStage& stage, LineStart* common);
 
+  /// Asks for the start, once a motion: the drive's own IMS is queued; a common start waits until all drives
+  /// of the line have asked. What comes of it, take() and poll() tell.
   void ask();
   /// The drive does not start after all.
   void withdraw();

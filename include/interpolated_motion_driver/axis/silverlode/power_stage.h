@@ -34,6 +34,7 @@ class SilverlodePowerStage final : public AxisBase {
   /// parameter.
   SilverlodePowerStage(SilverlodeAxisParameters parameters, silverlode::LineMaster& line,
                        silverlode::DeviceLink& device);
+  /// In place of AxisBase::attach(), once, before anything else.
   void attach(SegmentPlayer& player);
 
   const std::string& bus() const override { return line_.line_name(); }
@@ -48,6 +49,8 @@ class SilverlodePowerStage final : public AxisBase {
 
   // For the player.
 
+  /// What the player works with; all of it lives as long as the power stage. Only one at a time uses
+  /// `sequence`.
   const SilverlodeAxisParameters& parameters() const { return parameters_; }
   silverlode::LineMaster& line() const { return line_; }
   silverlode::DeviceLink& device() const { return device_; }

@@ -52,8 +52,8 @@ class RegisterDelivery : public SegmentDelivery {
   enum class Command { None, Fill, HandOver, HandOverAgain, Ask };
   /// The segment being written.
   struct Filling {
-    std::array<std::int32_t, kBlock> values{};
-    std::size_t written = 0;
+    std::array<std::int32_t, kBlock> values{};  ///< time, position, acceleration, velocity, as IMW has them
+    std::size_t written = 0;                    ///< of `values`, acknowledged by the drive
   };
 
   std::int32_t control_of(std::size_t segment) const;

@@ -17,12 +17,12 @@ namespace interpolated_motion::axis {
 /// What a delivery works with, all of it one drive's and longer-lived: the line and the drive's link to it,
 /// the commands of its axis, its segments, and the model of its clock.
 struct DeliveryContext {
-  silverlode::LineMaster& line;
-  silverlode::DeviceLink& device;
-  CommandSequence& sequence;
-  SegmentFeed& feed;
-  const PlaybackClock& clock;
-  double line_share;  ///< of the line's time that records may fill
+  silverlode::LineMaster& line;    ///< for the times that commands take on it
+  silverlode::DeviceLink& device;  ///< takes the commands
+  CommandSequence& sequence;       ///< for the steps of bring-up and clearing
+  SegmentFeed& feed;               ///< gives the segments
+  const PlaybackClock& clock;      ///< how far the drive has played
+  double line_share;               ///< of the line's time that records may fill
 };
 
 /// The way segments take into a SilverLode drive. QCI-TD044 has two: QueueDelivery and RegisterDelivery.
@@ -63,6 +63,7 @@ class SegmentDelivery {
   /// Gives the line what is due: whatever segments already taken from the feed still need, and the next
   /// segment when `more` are wanted, encoded for `rate` (see SegmentFeed::next()).
   virtual Failure offer(bool more, double rate, HostTime now) = 0;
+  /// Whether `outcome` is that of the command on its way.
   bool owns(const silverlode::Outcome& outcome) const { return outcome.id == id_; }
   /// `outcome` is one that owns() is true of.
   virtual Failure take(const silverlode::Outcome& outcome, HostTime now) = 0;

@@ -27,6 +27,7 @@ class SegmentFeed {
   /// encoding::ImsEncoding::validate().
   void load(const trajectory::Path& path, const encoding::ImsEncoding& encoding, std::int32_t start_counts,
             std::size_t depth);
+  /// Whether there has been a load(): path(), next() and all that tells of knots need one before.
   bool loaded() const { return source_ != nullptr; }
 
   /// Encodes the way on along `path`, which is the former one up to knot_goal_time(): with the bound of
@@ -44,12 +45,14 @@ class SegmentFeed {
   /// second of the drive, or with the rate of the last one where `rate` leads into a dead end. Refused when
   /// the path cannot be followed from where the segments so far lead.
   Expected<ImsSegment, Refusal> next(double rate);
+  /// The segment that next() has given has been written to the drive; once for each.
   void mark_sent();
 
+  /// The segment with time 0, which ends the motion, has been sent too.
   bool all_sent() const { return terminated_; }
   /// Whether the segment that ends the motion has been given out.
   bool ending() const { return terminated_ || (next_ && next_->segment.time == 0); }
-  std::size_t sent() const { return sent_; }
+  std::size_t sent() const { return sent_; }  ///< segments, those of waiting and the last included
   /// Whether a place of the queue is free although the drive may have played no more than `least_elapsed`
   /// seconds. The drive has not started yet when `started` is false: then nothing has left the queue.
   bool has_place(double least_elapsed, bool started) const;
@@ -61,7 +64,7 @@ class SegmentFeed {
   double next_begin(double elapsed) const;
   /// When the drive begins segment `number`, counted from 0, one of those sent last.
   double begin_of(std::size_t number) const;
-  double duration() const { return queue_end(); }
+  double duration() const { return queue_end(); }  ///< as queue_end(), s
 
   /// An instant of the drive's motion.
   struct Instant {
@@ -77,27 +80,29 @@ class SegmentFeed {
   GoalTime knot_goal_time() const;
   /// Goal time of any instant of the drive's motion so far.
   GoalTime goal_time_at(double drive_seconds) const;
+  /// The one that is encoded now.
   const trajectory::Path& path() const;
   GoalTime start_goal_time() const { return start_goal_time_; }  ///< when the drive leaves its waiting
-  std::int32_t final_counts() const { return final_counts_; }
+  std::int32_t final_counts() const { return final_counts_; }    ///< where it ends, rounded
 
  private:
   /// What the drive executes from tick `begin` on.
   struct Stretch {
-    std::int64_t begin = 0;
-    std::int64_t ticks = 0;
-    GoalTime goal_begin{0.0};
-    double rate = 1.0;  ///< goal seconds per drive second
-    ImsSegment segment;
+    std::int64_t begin = 0;    ///< servo ticks since the start of the motion
+    std::int64_t ticks = 0;    ///< its duration; 0 of the segment that ends the motion
+    GoalTime goal_begin{0.0};  ///< goal time at `begin`
+    double rate = 1.0;         ///< goal seconds per drive second
+    ImsSegment segment;        ///< in the drive's numbers
   };
   /// The path and its encoder, which refers to it.
   struct Source {
+    /// Takes copies; encodes on from `from`. Not copied itself, since `encoder` refers to `path`.
     Source(const trajectory::Path& p, const encoding::ImsEncoding& e, const encoding::ImsKnot& from);
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
-    trajectory::Path path;
-    encoding::ImsEncoding encoding;
-    encoding::ImsEncoder encoder;
+    trajectory::Path path;           ///< rad or m over goal time
+    encoding::ImsEncoding encoding;  ///< with the bound that is in force
+    encoding::ImsEncoder encoder;    ///< where the segments given out so far lead
   };
 
   static std::optional<Refusal> try_out(const trajectory::Path& path, const encoding::ImsEncoding& encoding,

@@ -17,10 +17,11 @@ enum class SegmentQueue {
 struct SegmentRegisters {
   static constexpr std::size_t kBlock = 4;  ///< time, position, acceleration, velocity
 
-  std::uint16_t first = 25;
-  std::size_t blocks = 2;  ///< used in turn; 1: the same registers for every segment
-  int lost_replies = 1;    ///< in a row, that a goal must be able to bear at any time
+  std::uint16_t first = 25;  ///< number of the first one; see refuse_segment_registers()
+  std::size_t blocks = 2;    ///< used in turn; 1: the same registers for every segment
+  int lost_replies = 1;      ///< in a row, that a goal must be able to bear at any time
 
+  /// Number of the last one.
   std::uint16_t last() const { return static_cast<std::uint16_t>(first + kBlock * blocks - 1); }
   /// First register of the block of segment `number`, counted from 0.
   std::uint16_t block_of(std::size_t number) const {

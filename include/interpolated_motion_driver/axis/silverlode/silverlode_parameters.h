@@ -21,9 +21,9 @@ struct SilverlodeAxisParameters : AxisParameters {
   double start_lead = 0.3;      ///< s from arm() to the begin of the path
 
   interpolation::ImsScale scale;  ///< of the segments; its counts per revolution are those of `transmission`
-  silverlode::DriveScale command_scale;  ///< of all other commands
-  std::string ims_arguments = "0 0";     ///< of IMS: in no document at hand
-  SegmentQueue queue = SegmentQueue::Fifo;
+  silverlode::DriveScale command_scale;     ///< of all other commands
+  std::string ims_arguments = "0 0";        ///< of IMS: in no document at hand
+  SegmentQueue queue = SegmentQueue::Fifo;  ///< where segments wait: decides which of the next two matters
   int queue_depth = 0;  ///< of the FIFO: 4, or 8 from SilverDust revision 06 on; 0: measured at bring-up
   SegmentRegisters segment_registers;  ///< of the register-based queue
   double max_clock_error = 5e-4;       ///< of the drive's crystal, relative

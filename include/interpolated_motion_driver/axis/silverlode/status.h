@@ -18,6 +18,7 @@ namespace interpolated_motion::axis {
 /// positions, the ticks left of a segment, the I/O status word, the polling status word.
 class SilverlodeStatus {
  public:
+  /// `device` must outlive this. `transmission` makes feedback() of counts.
   SilverlodeStatus(silverlode::DeviceLink& device, const encoding::Transmission& transmission)
       : device_(device), transmission_(transmission) {}
 
@@ -28,25 +29,29 @@ class SilverlodeStatus {
   bool take(const silverlode::Outcome& outcome);
   /// Takes the actual position from an answer whose first register it is.
   void take_position(const silverlode::Outcome& outcome);
+  /// The last question has had no outcome yet.
   bool asking() const { return asked_ != silverlode::kNoRequest; }
   /// Forgets everything but the position: the drive may be another one now, or have restarted.
   void forget();
+  /// When the last question was queued; the epoch: never.
   HostTime asked_at() const { return asked_at_; }
 
+  /// At the last bit of the question. The velocity is the difference of two positions less than 0.5 s apart,
+  /// else 0. Counts: register 1, as it was read last.
   const AxisFeedback& feedback() const { return feedback_; }
   std::int32_t actual_counts() const { return actual_counts_; }
 
-  silverlode::IoStatus io;
-  HostTime io_time{};  ///< the drive answered with `io` at this time or later
-  silverlode::PollingStatus polling;
+  silverlode::IoStatus io;            ///< latest answer to RIO; all 0 before the first and after forget()
+  HostTime io_time{};                 ///< the drive answered with `io` at this time or later
+  silverlode::PollingStatus polling;  ///< latest answer to POL; all 0 before the first and after forget()
   std::optional<std::int32_t> underrun_deceleration;  ///< register 19; lost when the drive restarts
   /// A look at the segment under execution: when, the servo ticks left of it, and the numbers the drive has
   /// copied.
   struct Execution {
-    silverlode::Outcome outcome;
-    std::int32_t ticks_left = 0;
+    silverlode::Outcome outcome;               ///< of the question, with its times
+    std::int32_t ticks_left = 0;               ///< register 18
     std::optional<std::int32_t> acceleration;  ///< unknown where the drive reads one register at a time
-    std::optional<std::int32_t> velocity;
+    std::optional<std::int32_t> velocity;      ///< register 22, a magnitude; as `acceleration`
   };
   std::optional<Execution> execution;  ///< the latest, until it is taken
   /// The last question when it got no answer, as text; empty when it got one.

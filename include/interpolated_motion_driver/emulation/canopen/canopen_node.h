@@ -19,13 +19,15 @@ namespace interpolated_motion::emulation {
 
 /// What every emulated CANopen node has, whatever it drives.
 struct NodeSettings {
-  std::uint8_t node_id = 1;
-  std::string device_name;  ///< 0x1008
-  MotionClockSettings clock;
+  std::uint8_t node_id = 1;     ///< 1..127
+  std::string device_name;      ///< 0x1008
+  MotionClockSettings clock;    ///< of its crystal, and how it follows the master's
   HostDuration sample_phase{};  ///< of the first sample after boot
+  /// From power-up to the boot-up message; deaf and silent until then.
   HostDuration boot_time = std::chrono::milliseconds(200);
-  HostDuration sdo_response_time{};
+  HostDuration sdo_response_time{};                  ///< from a request to its response, >= 0
   std::uint8_t communication_error_register = 0x10;  ///< bits added to 0x1001 with EMCY 0x8130 and 0x8210
+  /// Leaves Operational when the heartbeat of a watched node or life guarding fails.
   bool pre_operational_on_heartbeat_loss = false;
   bool pdo_setup_only_pre_operational = true;  ///< PDO parameters written in Operational are aborted
 };

@@ -35,6 +35,8 @@ OptionCodes option_codes(const ObjectDictionary& objects);
 /// Quick stop active can be left to Operation enable, and the statusword's bit 4 tells of the power stage.
 class DeviceControl {
  public:
+  /// As of the latest command, fault or end of a ramp; Switch on disabled at first. The power stage is on in
+  /// Operation enabled, Quick stop active and Fault reaction active.
   DeviceState state() const { return state_; }
   bool power_stage() const;
   bool operation_enabled() const { return state_ == DeviceState::OperationEnabled; }
@@ -43,15 +45,21 @@ class DeviceControl {
 
   /// Ramp under way; when it has come to its end, at_rest() is to be called.
   StopRamp ramp() const { return ramp_; }
+  /// The ramp under way has ended: the state it was to lead to is entered. Nothing happens without a ramp.
   void at_rest();
 
   /// A new controlword. True when it was a fault reset that took effect.
   bool command(std::uint16_t controlword, const OptionCodes& options);
 
+  /// An error of the drive: brakes as 0x605E says while the power stage is on, then Fault. Nothing happens
+  /// where a fault is there already.
   void fault(const OptionCodes& options);
   /// The host has been lost.
   void connection_lost(const OptionCodes& options);
+  /// Of an enabled axis: brakes on the quick-stop ramp and stays in Quick stop active. Of any other: as
+  /// disable_voltage().
   void quick_stop();
+  /// To Switch on disabled at once, whatever the axis is doing; a fault is not looked at.
   void disable_voltage();
   void reset() { *this = DeviceControl(); }
 

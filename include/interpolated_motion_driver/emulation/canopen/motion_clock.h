@@ -24,6 +24,7 @@ struct MotionClockSettings {
 /// latched value serves for one time stamp, so a time stamp whose SYNC did not arrive is ignored.
 class MotionClock {
  public:
+  /// The first sample comes at `now`; see restart().
   MotionClock(const MotionClockSettings& settings, HostTime now);
 
   /// Power-up: the first sample comes at `first`.

@@ -20,8 +20,10 @@ enum class NmtAction { None, Entered, ResetNode, ResetCommunication };
 /// Time is the drive's own millisecond count.
 class NmtSlave {
  public:
-  static constexpr int kConsumers = 2;
+  static constexpr int kConsumers = 2;  ///< entries of 0x1016, as EPOS2's EDS has them
 
+  /// PDOs are exchanged in Operational only, SDO is served in Pre-operational too, and in Stopped nothing is
+  /// left but NMT and heartbeat. Before boot() nothing is: not communicating.
   NmtState state() const { return state_; }
   bool operational() const { return state_ == NmtState::Operational; }
   bool communicating() const { return state_ != NmtState::BootUp; }
@@ -35,6 +37,7 @@ class NmtSlave {
 
   /// Handles a command specifier addressed to this node. Entered: the state has changed.
   NmtAction command(std::uint8_t specifier);
+  /// The drive leaves Operational by itself.
   void enter_pre_operational() { state_ = NmtState::PreOperational; }
 
   /// 0x1017, ms; 0 = no heartbeat. The first one is due at once.
@@ -60,11 +63,11 @@ class NmtSlave {
 
  private:
   struct Consumer {
-    std::uint8_t node = 0;
-    std::int64_t time_ms = 0;
-    std::int64_t last_ms = 0;
-    bool watching = false;
-    bool lost = false;
+    std::uint8_t node = 0;     ///< whose heartbeat; 0: nobody's
+    std::int64_t time_ms = 0;  ///< longest pause between two heartbeats; 0: not watched
+    std::int64_t last_ms = 0;  ///< when the last one came, own clock
+    bool watching = false;     ///< one has come, and none has failed to come since
+    bool lost = false;         ///< said once by connection_lost(), until the next heartbeat
   };
 
   NmtState state_ = NmtState::BootUp;

@@ -16,7 +16,7 @@ class ObjectDictionary {
  public:
   using Slot = std::size_t;
   using Values = std::vector<std::int64_t>;
-  static constexpr Slot kNone = SIZE_MAX;
+  static constexpr Slot kNone = SIZE_MAX;  ///< no row: for nothing but comparing
 
   virtual ~ObjectDictionary() = default;
 
@@ -25,6 +25,7 @@ class ObjectDictionary {
 
   /// The row itself.
   const ObjectEntry& entry(Slot slot) const { return table_.rows[slot]; }
+  /// Rows of the table, those this drive does not have included.
   Slot size() const { return table_.size; }
 
   /// Why there is no such object: NoSuchObject or NoSuchSubindex.
@@ -33,6 +34,7 @@ class ObjectDictionary {
   /// Value at power-up if nothing has been stored: the default of the EDS, or that of the drive's parameters.
   const Values& defaults() const { return defaults_; }
 
+  /// The value of a row of this table, as a number. Setting checks nothing and tells nobody.
   std::int64_t get(Slot slot) const { return values_[slot]; }
   void set(Slot slot, std::int64_t value) { values_[slot] = value; }
 
@@ -45,6 +47,7 @@ class ObjectDictionary {
   /// The low bytes of the value as they go on the wire.
   std::uint64_t raw(Slot slot) const;
 
+  /// The values of all rows in the order of the table, to be stored and to be set again.
   const Values& values() const { return values_; }
   void restore(const Values& values) { values_ = values; }
 

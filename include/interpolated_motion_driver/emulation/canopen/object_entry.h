@@ -39,38 +39,43 @@ constexpr int size_of(ObjectType type) {
   return 0;
 }
 
+/// Whether the type has a sign; a string has none.
 constexpr bool is_signed(ObjectType type) {
   return type == ObjectType::I8 || type == ObjectType::I16 || type == ObjectType::I32;
 }
 
 /// One row of the object table: what an EDS says about an object.
 struct ObjectEntry {
-  std::uint16_t index = 0;
-  std::uint8_t subindex = 0;
-  ObjectType type = ObjectType::U8;
-  Access access = Access::Ro;
-  bool mappable = false;      ///< may be mapped into a PDO
-  bool has_default = false;   ///< the EDS states a default
-  bool plus_node_id = false;  ///< the node id is added to the default
-  bool has_range = false;
-  std::int64_t initial = 0;  ///< default value
-  std::int64_t low = 0;
-  std::int64_t high = 0;
+  std::uint16_t index = 0;           ///< 0x1000.. CiA 301, 0x2000.. the vendor's, 0x6000.. CiA 402
+  std::uint8_t subindex = 0;         ///< 0 for a variable, or for the number of entries
+  ObjectType type = ObjectType::U8;  ///< decides the size of the value on the wire
+  Access access = Access::Ro;        ///< by SDO; Rww is as Rw: for PDOs `mappable` decides
+  bool mappable = false;             ///< may be mapped into a PDO
+  bool has_default = false;          ///< the EDS states a default
+  bool plus_node_id = false;         ///< the node id is added to the default
+  bool has_range = false;            ///< `low` and `high` hold
+  std::int64_t initial = 0;          ///< default value
+  std::int64_t low = 0;              ///< included
+  std::int64_t high = 0;             ///< included
 
+  /// By SDO; else the access is aborted with 0x06010001 or 0x06010002.
   constexpr bool readable() const { return access != Access::Wo; }
   constexpr bool writable() const { return access != Access::Ro && access != Access::Const; }
 
+  /// The same row with the default `v`.
   constexpr ObjectEntry value(std::int64_t v) const {
     ObjectEntry entry = *this;
     entry.has_default = true;
     entry.initial = v;
     return entry;
   }
+  /// The same row with the default `v` plus the node id, as `$NODEID+v` of an EDS.
   constexpr ObjectEntry plus_node(std::int64_t v) const {
     ObjectEntry entry = value(v);
     entry.plus_node_id = true;
     return entry;
   }
+  /// The same row with a range, both ends included; a write outside of it is aborted.
   constexpr ObjectEntry range(std::int64_t lowest, std::int64_t highest) const {
     ObjectEntry entry = *this;
     entry.has_range = true;
@@ -78,6 +83,7 @@ struct ObjectEntry {
     entry.high = highest;
     return entry;
   }
+  /// The same row, which may be mapped into a PDO.
   constexpr ObjectEntry pdo() const {
     ObjectEntry entry = *this;
     entry.mappable = true;

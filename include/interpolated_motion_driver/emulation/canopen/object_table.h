@@ -9,8 +9,8 @@ namespace interpolated_motion::emulation {
 
 /// The objects a kind of drive has: rows in the order of index and sub-index, which outlive this.
 struct ObjectTable {
-  const ObjectEntry* rows = nullptr;
-  std::size_t size = 0;
+  const ObjectEntry* rows = nullptr;  ///< `size` of them, ascending by index, then by sub-index
+  std::size_t size = 0;               ///< rows
 
   /// Row of an object; `size` when there is none.
   constexpr std::size_t slot(std::uint16_t index, std::uint8_t subindex) const {
@@ -30,6 +30,7 @@ struct ObjectTable {
 /// Words to write a table with.
 namespace object_table {
 
+/// DataType and AccessType as an EDS names them (CiA 306).
 constexpr auto I8 = ObjectType::I8;
 constexpr auto I16 = ObjectType::I16;
 constexpr auto I32 = ObjectType::I32;
@@ -44,6 +45,7 @@ constexpr auto Rw = Access::Rw;
 constexpr auto Rww = Access::Rww;
 constexpr auto Const = Access::Const;
 
+/// A row without default (0 at power-up) and range, in no PDO.
 constexpr ObjectEntry object(std::uint16_t index, std::uint8_t subindex, ObjectType type, Access access) {
   ObjectEntry entry;
   entry.index = index;

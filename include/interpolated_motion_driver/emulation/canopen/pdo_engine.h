@@ -32,7 +32,7 @@ class PdoOwner {
 /// PDO whose COB-ID permits it (bit 30 = 0) also answers requests.
 class PdoEngine {
  public:
-  static constexpr int kCount = 4;
+  static constexpr int kCount = 4;  ///< of each direction
 
   /// `setup_only_pre_operational`: while Operational no PDO parameter can be written.
   PdoEngine(ObjectDictionary& objects, bool setup_only_pre_operational, PdoOwner& owner)
@@ -52,6 +52,8 @@ class PdoEngine {
 
   /// A data frame; true when it was one of the receive PDOs.
   bool on_frame(const canopen::Frame& frame);
+  /// A remote frame of any identifier: answered by the transmit PDO that has it and may be asked. Then SYNC.
+  /// Both only while Operational.
   void on_remote_request(const canopen::Frame& frame);
   void on_sync();
 
@@ -60,25 +62,25 @@ class PdoEngine {
 
  private:
   struct Mapped {
-    ObjectDictionary::Slot slot = 0;
-    int bits = 0;
+    ObjectDictionary::Slot slot = 0;  ///< of the object
+    int bits = 0;                     ///< 8, 16, 32 or 64: whole objects only
   };
 
   struct Pdo {
-    bool valid = false;
-    bool remote_allowed = false;
-    std::uint32_t id = 0;
-    std::uint8_t type = 255;
-    int inhibit = 0;
-    int count = 0;
-    int length = 0;
-    std::array<Mapped, 8> map{};
-    std::uint64_t data = 0;
-    std::uint64_t last = 0;
-    std::int64_t sent_at = 0;
-    int syncs = 0;
-    bool pending = false;  ///< receive: data waits for SYNC
-    bool ever_sent = false;
+    bool valid = false;           ///< bit 31 of the COB-ID is 0
+    bool remote_allowed = false;  ///< bit 30 of the COB-ID is 0
+    std::uint32_t id = 0;         ///< 11 bits
+    std::uint8_t type = 255;      ///< transmission type
+    int inhibit = 0;              ///< 100 us, of a transmit PDO
+    int count = 0;                ///< objects mapped, 0..8
+    int length = 0;               ///< bytes
+    std::array<Mapped, 8> map{};  ///< the first `count`
+    std::uint64_t data = 0;       ///< received last, byte 0 lowest; of type 252, sampled at the last SYNC
+    std::uint64_t last = 0;       ///< sent last
+    std::int64_t sent_at = 0;     ///< 100 us on the drive's clock; of types 254 and 255
+    int syncs = 0;                ///< since it was sent, of types 1..240
+    bool pending = false;         ///< receive: data waits for SYNC
+    bool ever_sent = false;       ///< since the PDOs were set up, or the drive became Operational
   };
 
   Pdo compile(std::uint16_t communication, std::uint16_t mapping) const;

@@ -41,8 +41,8 @@ class SdoChannel {
 
  private:
   struct Response {
-    HostTime due{};
-    canopen::Frame frame;
+    HostTime due{};        ///< when it is sent; in the order they were made
+    canopen::Frame frame;  ///< of 8 bytes
   };
 
   void respond(const SdoServer::Bytes& bytes, HostTime now);

@@ -25,6 +25,7 @@ class SdoObjects {
   /// Whether a transfer to this object may begin. `object_size` receives the length of its value.
   virtual AbortCode sdo_writable(std::uint16_t index, std::uint8_t subindex, std::size_t& object_size) = 0;
 
+  /// Writes `size` bytes, the least significant first. None: written; else what the client is told.
   virtual AbortCode sdo_write(std::uint16_t index, std::uint8_t subindex, const std::uint8_t* data,
                               std::size_t size) = 0;
 };
@@ -35,6 +36,7 @@ class SdoServer {
  public:
   using Bytes = std::array<std::uint8_t, 8>;
 
+  /// `objects` must outlive it.
   explicit SdoServer(SdoObjects& objects) : objects_(objects) {}
 
   /// Response to the 8 bytes of a client's frame; nothing when the protocol has none at this point.

@@ -46,6 +46,7 @@ class CyclicDrive : public CanopenDrive {
   CyclicDrive(transport::VirtualCanBus& bus, const CyclicParameters& parameters, HostTime now);
   ~CyclicDrive() override;
 
+  /// As given to the constructor, and what has been counted since.
   const CyclicParameters& parameters() const;
   CyclicCounters counters() const;
 

@@ -176,6 +176,7 @@ inline constexpr auto kCyclicObjects = [] {
   };
 }();
 
+/// The same as an ObjectDictionary takes it.
 inline constexpr ObjectTable kCyclicTable{kCyclicObjects.data(), kCyclicObjects.size()};
 
 /// Row of an object that is known to exist.

@@ -14,8 +14,8 @@ struct CyclicParameters {
   std::string device_name = "Emulated cyclic servo drive";  ///< 0x1008, 1..32 characters
   std::uint32_t vendor_id = 0;                              ///< 0x1018; no vendor's number is claimed
   std::uint32_t product_code = 0x43535038;                  ///< "CSP8"
-  std::uint32_t revision_number = 0x00010000;
-  std::uint32_t serial_number = 1;
+  std::uint32_t revision_number = 0x00010000;               ///< 0x1018:3
+  std::uint32_t serial_number = 1;                          ///< 0x1018:4
 
   double clock_error_ppm = 0.0;  ///< of its crystal, positive: fast; -100000..100000
   HostDuration servo_period =
@@ -31,7 +31,7 @@ struct CyclicParameters {
   int interpolation_order = 3;  ///< 0x2100:1 after boot, 1..3
   int ride_through = 3;         ///< 0x2100:2 after boot, updates, 0..100
 
-  PlantParameters plant;
+  PlantParameters plant;              ///< how the axis follows the demand
   std::int32_t initial_position = 0;  ///< counts
 };
 

@@ -33,7 +33,7 @@ class FineInterpolation {
 
   /// Updates that have not come, to the nearest: between the last two, and up to `now`.
   std::uint32_t missed_in_all() const { return missed_; }
-  std::uint32_t missed_now(double now) const;
+  std::uint32_t missed_now(double now) const;  ///< 0 before the first
 
   /// Whether `now` lies more than `updates` periods beyond the newest.
   bool beyond(int updates, double now) const;
@@ -43,8 +43,8 @@ class FineInterpolation {
 
  private:
   struct Knot {
-    double time = 0.0;
-    double position = 0.0;
+    double time = 0.0;      ///< ms of the drive's own clock, at which `position` is to be reached
+    double position = 0.0;  ///< counts
   };
 
   // Four for a cubic, and one more for the segment that is still in effect when an update comes early.

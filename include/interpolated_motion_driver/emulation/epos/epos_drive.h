@@ -26,10 +26,10 @@ struct EposSample {
 
 /// What an emulated drive has counted since it was made.
 struct EposCounters {
-  std::uint64_t records_accepted = 0;
-  std::uint64_t records_refused = 0;  ///< dropped, aborted or overflowing records
-  std::uint64_t underflows = 0;
-  std::uint64_t overflows = 0;
+  std::uint64_t records_accepted = 0;  ///< put into the buffer, those with time 0 included
+  std::uint64_t records_refused = 0;   ///< dropped, aborted or overflowing records
+  std::uint64_t underflows = 0;        ///< ran dry, or could not start, as the settings have it
+  std::uint64_t overflows = 0;         ///< records for a full buffer, whatever InactiveOverflow made of them
   int minimum_fill = -1;  ///< lowest number of records while interpolating and before the record that ends
                           ///< the mode is queued; -1 when there was no such sample
   std::uint64_t emergencies = 0;  ///< EMCY messages with a code other than 0
@@ -49,6 +49,7 @@ class EposDrive : public CanopenDrive {
   EposDrive(transport::VirtualCanBus& bus, const EposParameters& parameters, HostTime now);
   ~EposDrive() override;
 
+  /// As given to the constructor, and what has been counted since.
   const EposParameters& parameters() const;
   EposCounters counters() const;
 

@@ -9,6 +9,7 @@ namespace interpolated_motion::emulation {
 /// The object dictionary of an emulated EPOS drive. `parameters` must outlive it.
 class EposObjects : public ObjectDictionary {
  public:
+  /// With the defaults of the EDS and those that `parameters` give.
   explicit EposObjects(const EposParameters& parameters);
 
   bool mappable(Slot slot, bool into_receive_pdo) const override;

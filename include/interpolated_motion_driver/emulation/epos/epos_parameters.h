@@ -79,7 +79,7 @@ enum class ActiveStop { ProfileDeceleration, AtOnce };
 
 /// All settings of an emulated drive. Defaults are an EPOS2 70/10 with firmware 0x2126 as delivered.
 struct EposParameters {
-  EposVariant variant = EposVariant::Epos2;
+  EposVariant variant = EposVariant::Epos2;  ///< decides which objects there are
 
   std::uint8_t node_id = 1;                    ///< 1..127
   std::uint32_t vendor_id = 0x000000FB;        ///< 0x1018:1; EDS: VendorNumber of maxon motor
@@ -99,9 +99,9 @@ struct EposParameters {
   std::int32_t counts_per_revolution = 2000;  ///< qc per turn of the motor (4 x encoder pulses), > 0
   std::int32_t initial_position = 0;          ///< qc, at the first power-up
   bool position_survives_power_off =
-      true;            ///< false: the position is 0 after each power-up (incremental encoder)
-  bool homed = false;  ///< bit 15 of the statusword
-  PlantParameters plant;
+      true;               ///< false: the position is 0 after each power-up (incremental encoder)
+  bool homed = false;     ///< bit 15 of the statusword
+  PlantParameters plant;  ///< how the axis follows the demand
 
   std::int16_t abort_connection_option =
       1;  ///< default of 0x6007: 0 nothing, 1 fault, 2 disable voltage, 3 quick stop
@@ -125,10 +125,11 @@ struct EposParameters {
   bool time_stamp_pdo_mappable = true;    ///< 0x1013; Doc of EPOS2 and EDS: yes
   bool buffer_clear_pdo_mappable = true;  ///< 0x60C4:6; Doc: no, EDS: yes
 
-  RecordPolicy records_while_access_disabled = RecordPolicy::Abort;
-  RecordPolicy records_outside_mode = RecordPolicy::Abort;  ///< another mode than 7 selected
+  RecordPolicy records_while_access_disabled = RecordPolicy::Abort;  ///< 0x60C4:6 is 0
+  RecordPolicy records_outside_mode = RecordPolicy::Abort;           ///< another mode than 7 selected
   RecordPolicy records_outside_operation_enabled =
       RecordPolicy::Accept;  ///< mode 7, but not Operation enable
+  /// Each answers a question that Doc leaves open; the answers are explained at their types.
   InactiveOverflow overflow_while_inactive = InactiveOverflow::Fault;
   LeadingTerminator leading_terminator = LeadingTerminator::EndsMode;
   UnderflowTest underflow_test = UnderflowTest::AtSegmentEnd;
@@ -138,6 +139,7 @@ struct EposParameters {
   MotionCheck motion_check = MotionCheck::Samples;
   bool motion_warnings_latched = true;        ///< bits 2 and 3 of 0x20C4:1 stay until the buffer is cleared
   bool fill_warnings_while_disabled = false;  ///< bits 0 and 1 of 0x20C4:1 while access is disabled
+  /// The same about errors and stopping.
   ErrorBitsClear error_bits_clear = ErrorBitsClear::AtFaultReset;
   HaltRelease halt_release = HaltRelease::Resume;
   ActiveStop active_stop = ActiveStop::ProfileDeceleration;

@@ -32,6 +32,7 @@ enum class InterpolationEvent {
   PositionLimit
 };
 
+/// Whether the drive has to go into its fault reaction.
 inline bool is_error(InterpolationEvent event) {
   return event != InterpolationEvent::None && event != InterpolationEvent::Ended;
 }
@@ -40,6 +41,7 @@ inline bool is_error(InterpolationEvent event) {
 /// "interpolation active" or "inactive", cubic interpolation at 1 ms, status word 0x20C4:1.
 class InterpolatedPositionMode {
  public:
+  /// `parameters` must outlive it. Empty, access disabled, inactive; set_limits() before records come.
   explicit InterpolatedPositionMode(const EposParameters& parameters) : parameters_(parameters) {}
 
   /// Settings that hold from now on.
@@ -53,7 +55,7 @@ class InterpolatedPositionMode {
 
   /// 0x60C4:6: false clears the buffer and denies access, true grants it.
   void enable_access(bool enabled);
-  bool access_enabled() const { return access_; }
+  bool access_enabled() const { return access_; }  ///< 0x60C4:6
 
   /// Appends a record. Overflow or PositionLimit when it is refused and that is a fault.
   InterpolationEvent push(const BufferedRecord& record);
@@ -65,6 +67,7 @@ class InterpolatedPositionMode {
   /// Transition IV by the controlword, halt without resumption, or a fault.
   void stop() { active_ = false; }
 
+  /// State "interpolation active" (Table 4-25): the records are played.
   bool active() const { return active_; }
 
   /// The next 1 ms sample while active. `state` receives the demand (also together with an error).
@@ -76,10 +79,12 @@ class InterpolatedPositionMode {
   /// Error bits are cleared where the settings say so.
   void on_fault_reset();
 
+  /// 0x20C4:1 (table 4-35); records in the buffer, 0..64 (0x60C4:4); EposSample::samples_since_start.
   std::uint16_t status() const;
   int fill() const { return buffer_.size(); }
   std::int64_t samples() const { return samples_; }
 
+  /// As EposCounters has them, since this was made.
   std::uint64_t underflows() const { return underflows_; }
   std::uint64_t overflows() const { return overflows_; }
   int minimum_fill() const { return minimum_fill_; }

@@ -12,14 +12,16 @@ struct BufferedRecord {
   std::int32_t velocity = 0;  ///< velocity units (0x608B)
   std::uint8_t time = 0;      ///< ms, 0 ends the mode
 
+  /// The 64 bits as they were written, bit 0 that of the first byte on the wire. Any value is a record.
   static BufferedRecord from_raw(std::uint64_t raw);
 };
 
 /// The circular buffer of 64 records (4.3.1.2).
 class PvtBuffer {
  public:
-  static constexpr int kCapacity = 64;
+  static constexpr int kCapacity = 64;  ///< records, 0x60C4:1
 
+  /// Records, 0..kCapacity.
   int size() const { return size_; }
   bool empty() const { return size_ == 0; }
   bool full() const { return size_ == kCapacity; }
@@ -27,8 +29,10 @@ class PvtBuffer {
   /// Whether a record with time 0 is queued.
   bool terminated() const { return terminators_ > 0; }
 
+  /// The oldest record; not when empty.
   const BufferedRecord& front() const { return records_[head_]; }
 
+  /// Behind the newest; not when full. pop() takes the oldest; not when empty.
   void push(const BufferedRecord& record);
   void pop();
   void clear();

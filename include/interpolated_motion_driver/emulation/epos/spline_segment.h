@@ -20,6 +20,7 @@ class SplineSegment {
     return {((a_ * s + b_) * s + c_) * s + d_, (3.0 * a_ * s + 2.0 * b_) * s + c_, 6.0 * a_ * s + 2.0 * b_};
   }
 
+  /// T, ms; 0 of a segment made by default.
   double duration() const { return duration_; }
 
  private:

@@ -44,6 +44,7 @@ class Answer {
   /// Adds a word to Data. At most eight fit.
   void add_word(std::uint16_t value) { words_[word_count_++] = value; }
 
+  /// refused(): a Nak, not what may become one.
   Kind kind() const { return kind_; }
   bool refused() const { return kind_ == Kind::Nak; }
 

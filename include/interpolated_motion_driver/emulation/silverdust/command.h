@@ -63,11 +63,11 @@ enum class CommandChapter {
 
 /// A row of the table of commands.
 struct CommandInfo {
-  Command command;
-  CommandChapter chapter;
-  CommandClass command_class;
-  std::size_t minimum_parameters;
-  std::size_t maximum_parameters;
+  Command command;                 ///< its number
+  CommandChapter chapter;          ///< who obeys it
+  CommandClass command_class;      ///< when it is obeyed
+  std::size_t minimum_parameters;  ///< numbers behind that of the command, else NAK 5
+  std::size_t maximum_parameters;  ///< included
 };
 
 /// The row of a command number; null when the drive does not know it.

@@ -17,6 +17,7 @@ namespace interpolated_motion::emulation {
 /// All commands of the drive, by the chapter each belongs to.
 class CommandRouter {
  public:
+  /// Takes copies; the parts of the drive that these work on must outlive it.
   CommandRouter(const CommunicationCommands& communication, const PollingCommands& polling,
                 const StatusCommands& status, const RegisterCommands& registers, const MotionCommands& motion,
                 const InterpolationCommands& interpolation, const ProtectionCommands& protection,

@@ -8,6 +8,8 @@ namespace interpolated_motion::emulation {
 /// Ranges of the numbers that come with commands, and their forms inside the drive.
 namespace command_value {
 
+/// Ends of the ranges of the protocol's numbers, all included: 32 bits signed and unsigned, 16 bits signed,
+/// and a word.
 inline constexpr std::int64_t kInt32Min = std::numeric_limits<std::int32_t>::min();
 inline constexpr std::int64_t kInt32Max = std::numeric_limits<std::int32_t>::max();
 inline constexpr std::int64_t kUint32Max = std::numeric_limits<std::uint32_t>::max();

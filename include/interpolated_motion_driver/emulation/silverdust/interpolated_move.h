@@ -51,6 +51,7 @@ class InterpolatedMove {
   /// velocity is constant, that of register 19.
   std::int64_t step() const;
 
+  /// Since the drive was made.
   const InterpolationCounters& counters() const { return counters_; }
 
  private:

@@ -10,14 +10,14 @@ namespace interpolated_motion::emulation {
 /// A packet of the 8-bit ASCII protocol, `@address command parameter ... CR`, all numbers decimal ("Serial
 /// Communications", QCI-TD053).
 struct Packet {
-  static constexpr std::size_t kMaximumParameters = 15;
+  static constexpr std::size_t kMaximumParameters = 15;  ///< numbers behind that of the command
 
-  bool well_formed = true;  ///< false: something else than digits, signs and spaces in it, or too long
-  bool too_long = false;
+  bool well_formed = true;    ///< false: something else than digits, signs and spaces in it, or too long
+  bool too_long = false;      ///< more numbers than that; not well formed then
   std::int64_t address = -1;  ///< -1: none
   std::int64_t command = 0;   ///< 0 (POL) when the packet ends after the address
-  std::array<std::int64_t, kMaximumParameters> parameters{};
-  std::size_t parameter_count = 0;
+  std::array<std::int64_t, kMaximumParameters> parameters{};  ///< as they were sent, within +-1e11
+  std::size_t parameter_count = 0;                            ///< of `parameters`, 0..kMaximumParameters
 };
 
 /// Makes packets of characters. Tolerates what hosts send: several spaces in a row, spaces before the CR, LF

@@ -59,7 +59,8 @@ struct SilverDustParameters {
   HostDuration tick = std::chrono::microseconds(120);  ///< servo cycle, 10..1000 us
   double clock_error_ppm = 0.0;                        ///< > 0: the drive's crystal is fast; |ppm| <= 100000
   HostDuration tick_phase{0};  ///< of the drive's ticks against its power-up, 0 .. tick
-  Integration integration = Integration::MeanVelocity;
+  Integration integration = Integration::MeanVelocity;  ///< not documented, see the type
+  /// Not documented, see the type.
   AccelerationRounding acceleration_rounding = AccelerationRounding::Truncated;
 
   int ims_arguments = -1;  ///< numbers IMS must come with; 0, 2, or -1 for both. Not documented
@@ -82,7 +83,7 @@ struct SilverDustParameters {
   int holding_delay = 120;              ///< ticks after a motion before the holding limit counts, 0..65535
   std::uint16_t status_inputs = 0b111;  ///< inputs 1..3 as the internal status word shows them
   std::uint16_t io_inputs = 0;          ///< the same as the I/O word shows them (bits 0..2 inputs 1..3)
-  SilverDustPlant plant;
+  SilverDustPlant plant;                ///< how the axis follows the target
 };
 
 /// Throws std::invalid_argument naming address, parameter, value and allowed range when a setting is out of

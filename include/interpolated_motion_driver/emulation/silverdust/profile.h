@@ -14,9 +14,9 @@ namespace interpolated_motion::emulation {
 /// units are 32 counts per tick: advance 1, count 2^26. At 4096 they are 4096/125 counts per tick: advance 1,
 /// count 125 * 2^19.
 struct ProfileScale {
-  std::int64_t subdivision = 1;
-  std::int64_t advance = 1;
-  std::int64_t count = 1;
+  std::int64_t subdivision = 1;  ///< fractions in a velocity unit, 1..4096
+  std::int64_t advance = 1;      ///< numerator of counts per tick and fraction
+  std::int64_t count = 1;        ///< denominator, without common factor
 
   /// Throws std::invalid_argument when the ratios do not fit.
   explicit ProfileScale(const SilverDustParameters& parameters);
@@ -67,6 +67,7 @@ class ProfileGenerator {
   /// At rest, and nothing left to do for the last command.
   bool done() const;
 
+  /// Of the parameters it was made with.
   const ProfileScale& scale() const { return scale_; }
   std::int64_t counts() const { return counts_; }      ///< whole counts of the target, not wrapped
   double position() const;                             ///< target with its fraction, counts, not wrapped

@@ -16,17 +16,21 @@ struct ProgramStep {
     WaitSegmentTaken,    ///< until the high word of register 17 is not 0
   };
 
-  Kind kind = Kind::WaitSegmentTaken;
-  std::int64_t target = 0;
-  std::int32_t value = 0;
-  std::int64_t count = 0;
+  Kind kind = Kind::WaitSegmentTaken;  ///< decides which of the rest mean anything
+  std::int64_t target = 0;             ///< number of the first register written
+  std::int32_t value = 0;  ///< that is written; of CopyRegisters the number of the first register read
+  std::int64_t count = 0;  ///< registers, of CopyRegisters only
 
+  /// The lines of a program. A register that cannot be written sets bit 12 (command error) of the polling
+  /// status word, one that does not exist reads 0.
   static ProgramStep write(std::int64_t reg, std::int32_t value) {
     return {Kind::WriteRegister, reg, value, 0};
   }
   static ProgramStep copy(std::int32_t from, std::int64_t to, std::int64_t count) {
     return {Kind::CopyRegisters, to, from, count};
   }
+  /// IMS, which is refused during a motion or while the driver is disabled: bit 12 again. Then the wait for
+  /// the drive to take a segment that was handed over by register 17.
   static ProgramStep start() { return {Kind::StartInterpolation, 0, 0, 0}; }
   static ProgramStep wait_taken() { return {Kind::WaitSegmentTaken, 0, 0, 0}; }
 };
@@ -49,6 +53,7 @@ class StoredProgram {
     running_ = !steps_.empty();
   }
 
+  /// No further line is executed; run() begins with the first.
   void stop() { running_ = false; }
   bool running() const { return running_; }
 

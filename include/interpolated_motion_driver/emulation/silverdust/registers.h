@@ -30,7 +30,7 @@ inline constexpr std::int64_t kProfileOffset = 24;  ///< of profile moves, which
 /// The data registers of a drive as they are stored, 32 bit each; how hosts see them is in DataRegisters.
 class RegisterFile {
  public:
-  static constexpr std::int64_t kSize = 256;
+  static constexpr std::int64_t kSize = 256;  ///< registers 0..255
 
   /// Whether there is a register `number`.
   static bool exists(std::int64_t number) { return number >= 0 && number < kSize; }

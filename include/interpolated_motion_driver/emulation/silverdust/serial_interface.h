@@ -19,10 +19,10 @@ class SerialInterface {
  public:
   /// Where and when the answer to a packet goes, in the settings the packet was heard in.
   struct Reply {
-    bool expected = false;  ///< false: packets to the group and to everybody are not answered
-    int address = 0;        ///< the drive's own
-    std::uint16_t command = 0;
-    HostTime time{};  ///< of the first bit
+    bool expected = false;      ///< false: packets to the group and to everybody are not answered
+    int address = 0;            ///< the drive's own
+    std::uint16_t command = 0;  ///< number that was heard: a Nak repeats it
+    HostTime time{};            ///< of the first bit
   };
 
   /// A port of `line`, which must outlive it, for `listener`. `parameters` must outlive it, too.

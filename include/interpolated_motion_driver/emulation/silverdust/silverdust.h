@@ -29,11 +29,11 @@ struct SilverDustCounters {
   std::uint64_t segments_accepted = 0;      ///< IMW acknowledged
   std::uint64_t segments_refused_full = 0;  ///< IMW answered with NAK 6
   std::uint64_t segments_executed = 0;      ///< those with time 0 included
-  std::uint64_t underruns = 0;
+  std::uint64_t underruns = 0;              ///< no fresh segment when one was due, the start included
   int minimum_fill = -1;  ///< lowest number of segments waiting in the queue when one was due (0: underrun)
                           ///< and before the one that ends the operation was queued; -1: none was due so far
   std::uint64_t commands = 0;  ///< packets for this drive, broadcasts included
-  std::uint64_t naks = 0;
+  std::uint64_t naks = 0;      ///< said to this drive's own address
 };
 
 /// A fault of the electronics, or the report of one.
@@ -62,6 +62,7 @@ class SilverDust : public Drive, public transport::SerialListener {
   SilverDust(transport::VirtualSerialLine& line, const SilverDustParameters& parameters, HostTime now);
   ~SilverDust() override;
 
+  /// As given to the constructor, and what has been counted since.
   const SilverDustParameters& parameters() const;
   SilverDustCounters counters() const;
 

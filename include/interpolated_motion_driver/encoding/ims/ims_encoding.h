@@ -20,8 +20,8 @@ inline constexpr std::int32_t kImsProjection = 1 << 30;  ///< counts, projects t
 
 /// Everything that decides how one joint's path becomes IMS segments.
 struct ImsEncoding {
-  std::string joint;  ///< for messages
-  Transmission transmission;
+  std::string joint;              ///< for messages
+  Transmission transmission;      ///< between joint units and counts
   interpolation::ImsScale scale;  ///< its counts per revolution are those of `transmission`, whatever it says
   double bound_counts = 2.0;      ///< worst allowed deviation from the path at any servo tick, counts
   double max_motor_rpm = 0.0;     ///< of the segments, as executed

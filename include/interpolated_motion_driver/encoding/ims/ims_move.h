@@ -14,14 +14,14 @@ struct ImsRules {
   /// Limits rounded down to whole units, of an encoding that is valid (not checked here).
   explicit ImsRules(const ImsEncoding& encoding);
 
-  interpolation::ImsScale scale;
-  double counts_per_unit;     ///< that a velocity of one unit moves in a tick
-  double lag;                 ///< ticks, see ImsScale::position_lag
-  double bound;               ///< counts
-  std::int64_t max_velocity;  ///< units
-  std::int64_t max_step;      ///< units per tick, change of the velocity
-  std::int64_t min_ticks;     ///< of a segment
-  std::int64_t max_ticks;     ///< of a segment
+  interpolation::ImsScale scale;  ///< of the encoding, as ImsEncoding::law() gives it
+  double counts_per_unit;         ///< that a velocity of one unit moves in a tick
+  double lag;                     ///< ticks, see ImsScale::position_lag
+  double bound;                   ///< counts
+  std::int64_t max_velocity;      ///< units
+  std::int64_t max_step;          ///< units per tick, change of the velocity
+  std::int64_t min_ticks;         ///< of a segment
+  std::int64_t max_ticks;         ///< of a segment
 };
 
 /// A segment before it is written in the drive's numbers.

@@ -13,13 +13,13 @@ namespace interpolated_motion::encoding {
 
 /// A knot the search has found, with the segment that leads to it.
 struct ImsCandidate {
-  std::int64_t tick = 0;  ///< since the interpolated motion began
-  interpolation::ImsState state;
-  ImsMove move;            ///< that leads here
-  ImsFigures figures;      ///< of its execution
-  double reach = 0.0;      ///< tick a segment from here can reach; the greater, the better
-  double misfit = 0.0;     ///< distance from the path, counts; decides between equal reaches
-  std::size_t parent = 0;  ///< where the segment starts: index in the generation before
+  std::int64_t tick = 0;          ///< since the interpolated motion began
+  interpolation::ImsState state;  ///< the drive's exact one at `tick`
+  ImsMove move;                   ///< that leads here
+  ImsFigures figures;             ///< of its execution
+  double reach = 0.0;             ///< tick a segment from here can reach; the greater, the better
+  double misfit = 0.0;            ///< distance from the path, counts; decides between equal reaches
+  std::size_t parent = 0;         ///< where the segment starts: index in the generation before
 };
 
 /// The few best knots that take the same number of segments, best first.
@@ -27,8 +27,8 @@ struct ImsGeneration {
   /// Three: a fourth knot saves one segment in two hundred and costs its share of the time.
   static constexpr std::size_t kWidth = 3;
 
-  std::array<ImsCandidate, kWidth> candidates;
-  std::size_t size = 0;              ///< of `candidates`, 0..kWidth
+  std::array<ImsCandidate, kWidth> candidates;  ///< the first `size`, best first
+  std::size_t size = 0;                         ///< of `candidates`, 0..kWidth
   std::int64_t longest_allowed = 0;  ///< ticks; what a retreat has left for the segments that lead here
 
   /// Appends; must not be called when full().
@@ -60,14 +60,14 @@ class ImsSearch {
 
   /// The knot decided last, at first the one to continue from.
   const ImsCandidate& knot() const { return generations_[0].candidates[0]; }
-  bool finished() const { return finished(knot()); }
+  bool finished() const { return finished(knot()); }  ///< at rest on the target, not before the path's end
 
   /// Goes on from knot() with ticks of another length (s of goal time).
   void restart(double seconds_per_tick);
   /// Takes back what restart() has changed since the knot was decided: the way on that was known then is
   /// known again. False when there is nothing to take back.
   bool take_back_restart();
-  double seconds_per_tick() const { return seconds_per_tick_; }
+  double seconds_per_tick() const { return seconds_per_tick_; }  ///< goal time, from knot() on
 
   /// Decides one more knot, not to be called when finished(). False: there is a dead end at dead_end().
   bool next(ImsCandidate& decided);
@@ -79,7 +79,7 @@ class ImsSearch {
   const TickSamples& samples() const { return samples_; }
   TickSamples& samples() { return samples_; }
   const ImsRules& rules() const { return rules_; }
-  std::int64_t target() const { return target_; }
+  std::int64_t target() const { return target_; }  ///< counts
 
  private:
   static constexpr std::size_t kMaxOffers = 512;
@@ -115,9 +115,9 @@ class ImsSearch {
   double seconds_per_tick_;
   /// What was known before the first restart() since knot() was decided.
   struct Known {
-    std::array<ImsGeneration, kDepth + 1> generations;
-    std::size_t depth = 0;
-    double seconds_per_tick = 0.0;
+    std::array<ImsGeneration, kDepth + 1> generations;  ///< as `generations_` was
+    std::size_t depth = 0;                              ///< as `depth_` was
+    double seconds_per_tick = 0.0;                      ///< goal seconds in a tick, as they were
   };
   Known known_;
   bool restarted_ = false;

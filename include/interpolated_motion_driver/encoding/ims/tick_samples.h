@@ -49,9 +49,9 @@ class TickSamples {
  private:
   /// One piece of the path in counts, over ticks since the piece's start.
   struct ScaledPiece {
-    double start = 0.0;  ///< ticks since the origin
-    double end = 0.0;
-    double coefficients[6] = {};
+    double start = 0.0;           ///< ticks since the origin
+    double end = 0.0;             ///< ticks since the origin
+    double coefficients[6] = {};  ///< counts/tick^i, of the ticks since `start`
   };
 
   void load_piece(std::size_t index);

@@ -11,7 +11,7 @@ namespace interpolated_motion::encoding {
 
 /// A knot the search has found, with the record that leads to it executed and within its rules.
 struct KnotCandidate {
-  PvtKnot knot;
+  PvtKnot knot;               ///< in the drive's own integers
   SegmentFigures figures;     ///< of the record that leads here
   std::int64_t duration = 0;  ///< of that record, ms
   std::int64_t reach = 0;     ///< sample a record from here can reach; the greater, the better
@@ -66,7 +66,7 @@ class KnotSearch {
 
   /// The knot decided last, at first the one to continue from.
   const PvtKnot& knot() const { return generations_[0][0].knot; }
-  bool finished() const { return knot().sample >= samples_.end(); }
+  bool finished() const { return knot().sample >= samples_.end(); }  ///< at the path's end
 
   /// Makes the samples readable that next() may look at, and returns the last of them.
   std::int64_t look_ahead();

@@ -37,10 +37,10 @@ class PathSamples {
  private:
   /// One piece of the path in counts and in ms since the piece's start.
   struct ScaledPiece {
-    double start = 0.0;  ///< ms since the path's start
-    double end = 0.0;
-    double position[6] = {};
-    double velocity[5] = {};
+    double start = 0.0;       ///< ms since the path's start
+    double end = 0.0;         ///< ms since the path's start
+    double position[6] = {};  ///< counts/ms^i, of the ms since `start`
+    double velocity[5] = {};  ///< its derivative, counts/ms^(i + 1)
   };
 
   std::size_t index(std::int64_t k) const { return static_cast<std::size_t>(k - base_); }

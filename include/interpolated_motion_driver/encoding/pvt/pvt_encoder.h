@@ -17,8 +17,8 @@ namespace interpolated_motion::encoding {
 
 /// Everything that decides how one joint's path becomes PVT records.
 struct PvtEncoding {
-  std::string joint;  ///< for messages
-  Transmission transmission;
+  std::string joint;          ///< for messages
+  Transmission transmission;  ///< between joint units and counts
   double velocity_unit_rpm =
       1.0;  ///< rpm of the motor per unit of a record's velocity: 1, 0.1, 0.01 or 0.001 (0x608B)
   double bound_counts = 1.0;            ///< worst allowed deviation from the path at any drive sample, counts

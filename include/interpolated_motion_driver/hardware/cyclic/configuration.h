@@ -11,11 +11,11 @@ namespace interpolated_motion::hardware {
 
 /// What only drives of type `cyclic` have.
 struct CyclicSettings : DriveSettings {
-  int interpolation_order = 3;     ///< of the drive's fine interpolation, 1..3
-  double servo_period = 1e-3;      ///< s, between the samples of the fine interpolation
-  double velocity_unit = 1.0;      ///< counts/s in one unit of 0x606C
-  double acceleration_unit = 1.0;  ///< counts/s^2 in one unit of 0x6084 and 0x6085
-  emulation::CyclicParameters emulated;
+  int interpolation_order = 3;           ///< of the drive's fine interpolation, 1..3
+  double servo_period = 1e-3;            ///< s, between the samples of the fine interpolation
+  double velocity_unit = 1.0;            ///< counts/s in one unit of 0x606C
+  double acceleration_unit = 1.0;        ///< counts/s^2 in one unit of 0x6084 and 0x6085
+  emulation::CyclicParameters emulated;  ///< what the emulated drive is; agrees with the settings above
 };
 
 /// Reads it. `drive` holds what all drives have. Throws like ParameterReader.

@@ -17,13 +17,13 @@ namespace interpolated_motion::hardware {
 struct SilverlodeSettings : DriveSettings {
   /// counts, DriveConfiguration::deviation_bound where the path is still being made
   double stream_deviation_bound = 8.0;
-  interpolation::ImsScale scale;
-  silverlode::DriveScale command_scale;
-  std::string ims_arguments = "0 0";  ///< of IMS
-  axis::SegmentQueue queue = axis::SegmentQueue::Fifo;
-  int queue_depth = 0;  ///< segments of the FIFO; 0: measured at bring-up
-  axis::SegmentRegisters segment_registers;
-  emulation::SilverDustParameters emulated;
+  interpolation::ImsScale scale;                        ///< of segments
+  silverlode::DriveScale command_scale;                 ///< of all other commands, and of register 19
+  std::string ims_arguments = "0 0";                    ///< of IMS
+  axis::SegmentQueue queue = axis::SegmentQueue::Fifo;  ///< where segments wait in the drive
+  int queue_depth = 0;                                  ///< segments of the FIFO; 0: measured at bring-up
+  axis::SegmentRegisters segment_registers;             ///< where `queue` is Registers
+  emulation::SilverDustParameters emulated;  ///< what the emulated drive is; agrees with the settings above
 };
 
 /// Reads it. `drive` holds what all drives have. Throws like ParameterReader.

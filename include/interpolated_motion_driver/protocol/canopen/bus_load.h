@@ -34,8 +34,8 @@ class BusLoad {
   static constexpr int kSlots = 10;
   static constexpr HostDuration kSlot = std::chrono::milliseconds(100);
   struct Slot {
-    std::int64_t number = -1;
-    double bits = 0;
+    std::int64_t number = -1;  ///< time in 100 ms since the epoch; -1: nothing yet
+    double bits = 0;           ///< of the frames that ended in it, average_bits() of each
   };
 
   std::uint32_t bitrate_;

@@ -63,9 +63,9 @@ enum class Service {
 
 /// An 11-bit identifier taken apart.
 struct CobIdMeaning {
-  Service service = Service::Unknown;
-  std::uint8_t node = 0;  ///< 1..127, or 0 for a service without a node
-  int pdo = 0;            ///< 1..4 for Tpdo and Rpdo, else 0
+  Service service = Service::Unknown;  ///< `Unknown` for an identifier that is free
+  std::uint8_t node = 0;               ///< 1..127, or 0 for a service without a node
+  int pdo = 0;                         ///< 1..4 for Tpdo and Rpdo, else 0
 };
 
 /// Meaning of any 11-bit identifier; `Unknown` for those the predefined connection set leaves free.

@@ -16,6 +16,7 @@ struct Frame {
   std::array<std::uint8_t, 8> data{};  ///< the first `length` bytes; zeros behind them
 };
 
+/// The same on the bus; the bytes behind `length` are compared too, so leave them 0.
 inline bool operator==(const Frame& a, const Frame& b) {
   return a.id == b.id && a.extended == b.extended && a.remote == b.remote && a.length == b.length &&
          a.data == b.data;
@@ -24,7 +25,7 @@ inline bool operator!=(const Frame& a, const Frame& b) { return !(a == b); }
 
 /// A frame seen on the bus: the time of its last bit, and whether this host sent it.
 struct ReceivedFrame {
-  Frame frame;
+  Frame frame;       ///< as it was on the bus
   HostTime time{};   ///< of its last bit on the bus
   bool own = false;  ///< confirmation that a frame of this host has been on the bus
 };

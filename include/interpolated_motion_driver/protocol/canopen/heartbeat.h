@@ -40,8 +40,8 @@ class HeartbeatConsumer {
 
   /// Last state heard; `Unknown` before the first heartbeat and after `Lost`.
   NodeState state() const { return state_; }
-  bool monitoring() const { return monitoring_; }
-  bool lost() const { return lost_; }
+  bool monitoring() const { return monitoring_; }  ///< from the first heartbeat to Lost or BootUp
+  bool lost() const { return lost_; }              ///< from Lost to the next heartbeat or boot-up message
   /// Time of the last heartbeat or boot-up message; the epoch when there was none.
   HostTime last_heard() const { return last_heard_; }
 

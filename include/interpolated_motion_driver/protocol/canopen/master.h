@@ -51,8 +51,8 @@ inline constexpr int kUnexpectedFrameCauses = 6;  ///< values of UnexpectedFrame
 /// Frames of one cause: how many, and the last of them.
 struct UnexpectedFrames {
   std::uint64_t count = 0;  ///< since the master was made
-  Frame last;
-  HostTime time{};  ///< of `last`
+  Frame last;               ///< only where `count` is not 0
+  HostTime time{};          ///< of `last`
 };
 
 /// The CANopen master of one bus, sans-IO: received frames go in with `on_frame`, frames to send come out of
@@ -74,10 +74,9 @@ struct UnexpectedFrames {
 /// periodic one serves), one that is late by more than half a period is left out, and none waits for another.
 ///
 /// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
-/// made. Bulk frames
-/// (`NodeLink::send_record`) leave when no control frame waits, node after node in turn, paced so that they
-/// take at most `max_bulk_load` of the bit rate, each counted as 135 bits, the worst case: RPDO identifiers
-/// beat those of SDO and heartbeat, so an unpaced prefill would starve them.
+/// made. Bulk frames (`NodeLink::send_record`) leave when no control frame waits, node after node in turn,
+/// paced so that they take at most `max_bulk_load` of the bit rate, each counted as 135 bits, the worst case:
+/// RPDO identifiers beat those of SDO and heartbeat, so an unpaced prefill would starve them.
 class Master {
  public:
   /// `bus_name` is used in texts. Throws std::invalid_argument with parameter, value and range.
@@ -154,10 +153,10 @@ class Master {
   friend class NodeLink;
   enum class Kind : std::uint8_t { Other, PeriodicSync, RequestedSync, Heartbeat, Sdo };
   struct ControlFrame {
-    Frame frame;
-    Kind kind = Kind::Other;
-    std::uint8_t node = 0;
-    HostTime due{};  ///< of a periodic SYNC
+    Frame frame;              ///< as it is to be sent
+    Kind kind = Kind::Other;  ///< what is to be noted when the transport takes it
+    std::uint8_t node = 0;    ///< whose SDO it is; 0: no SDO
+    HostTime due{};           ///< of a periodic SYNC
   };
   enum class Peeked : std::uint8_t { None, TimeStamp, Control, Bulk };
 

@@ -79,8 +79,8 @@ class NodeLink {
  private:
   friend class Master;
   struct Confirmed {
-    std::uint64_t count = 0;
-    HostTime last{};
+    std::uint64_t count = 0;  ///< since the node was added
+    HostTime last{};          ///< end of the last one on the bus; the epoch: none yet
   };
 
   NodeLink(Master& master, std::uint8_t id);

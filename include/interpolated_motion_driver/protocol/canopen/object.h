@@ -13,6 +13,7 @@ struct ObjectAddress {
   std::uint8_t subindex = 0;  ///< 0 for a variable
 };
 
+/// Compared by index, then by sub-index: the order of the dictionary.
 inline constexpr bool operator==(ObjectAddress a, ObjectAddress b) {
   return a.index == b.index && a.subindex == b.subindex;
 }
@@ -49,7 +50,7 @@ inline constexpr std::int64_t sign_extend(std::uint64_t value, unsigned bits) {
 
 /// One value to be written into the object dictionary by SDO.
 struct SdoWrite {
-  ObjectAddress address;
+  ObjectAddress address;    ///< must be writable in the drive
   std::uint8_t size = 0;    ///< bytes, 1..8: the size of the object
   std::uint64_t value = 0;  ///< two's complement in the lowest `size` bytes
 };

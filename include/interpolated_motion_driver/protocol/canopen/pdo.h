@@ -10,7 +10,7 @@ namespace interpolated_motion::canopen {
 
 /// One object in a PDO (CiA 301, 7.5.2.36).
 struct PdoEntry {
-  ObjectAddress address;
+  ObjectAddress address;  ///< must be mappable in the drive
   std::uint8_t bits = 0;  ///< 1..64
 
   /// As it stands in 0x1600.. and 0x1A00..: 0x20C10040.
@@ -20,11 +20,12 @@ struct PdoEntry {
   }
 };
 
+/// The same object and the same number of bits.
 inline constexpr bool operator==(const PdoEntry& a, const PdoEntry& b) { return a.value() == b.value(); }
 
 /// The objects in one PDO, in the order of the data bytes; 64 bits together at most.
 struct PdoMapping {
-  std::vector<PdoEntry> entries;
+  std::vector<PdoEntry> entries;  ///< 1..8 in a PDO that is to be set up
 
   /// Sum of the entries, 0..64 in a valid mapping.
   unsigned bits() const;
@@ -55,9 +56,9 @@ inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;
 
 /// How one PDO of a drive is to be set up.
 struct PdoConfiguration {
-  PdoDirection direction = PdoDirection::Rpdo;
-  int number = 1;  ///< 1..4
-  PdoMapping mapping;
+  PdoDirection direction = PdoDirection::Rpdo;    ///< as the drive sees it
+  int number = 1;                                 ///< 1..4
+  PdoMapping mapping;                             ///< of 64 bits at most
   std::uint8_t transmission_type = kEventDriven;  ///< 0..240 by SYNC, 252..253 on request, 254..255 event
   /// Shortest pause between two TPDOs, in 100 us; not written when empty. RPDOs have none.
   std::optional<std::uint16_t> inhibit_time;

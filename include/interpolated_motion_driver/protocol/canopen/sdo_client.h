@@ -72,6 +72,7 @@ class SdoClient {
   /// Next frame to send to the server (0x600 + node). The segments of a block are made one by one as they are
   /// asked for. The time-out runs anew from each frame handed out.
   std::optional<Frame> next_frame(HostTime now);
+  /// Whether next_frame() has one.
   bool has_frame() const { return closing_ || request_ || segment_due(); }
 
   /// The outcome of the transfer that ended last, once.
@@ -79,7 +80,7 @@ class SdoClient {
 
   /// Time-out of the transfers started from now on; 0x1010 (store parameters) takes longer than others.
   void set_timeout(HostDuration timeout) { parameters_.timeout = timeout; }
-  HostDuration timeout() const { return parameters_.timeout; }
+  HostDuration timeout() const { return parameters_.timeout; }  ///< from each frame sent to its answer
 
   /// Node id of the server, 1..127.
   std::uint8_t node() const { return node_; }

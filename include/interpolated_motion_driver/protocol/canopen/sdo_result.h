@@ -42,14 +42,14 @@ enum class SdoDirection {
 
 /// Outcome of one SDO transfer.
 struct SdoResult {
-  std::uint8_t node = 0;  ///< 1..127
-  ObjectAddress address;
-  SdoDirection direction = SdoDirection::Upload;
-  bool ok = false;
-  std::uint32_t abort_code = 0;   ///< 0 when `ok`
-  bool aborted_by_drive = false;  ///< the drive sent the abort; else this host did
-  SdoData data;                   ///< what was read, or what was to be written
-  Frame last_sent;                ///< the last frame of the transfer before it ended, for the error text
+  std::uint8_t node = 0;                          ///< 1..127
+  ObjectAddress address;                          ///< that was asked for
+  SdoDirection direction = SdoDirection::Upload;  ///< decides what `data` is
+  bool ok = false;                                ///< the drive has confirmed the whole transfer
+  std::uint32_t abort_code = 0;                   ///< 0 when `ok`
+  bool aborted_by_drive = false;                  ///< the drive sent the abort; else this host did
+  SdoData data;                                   ///< what was read, or what was to be written
+  Frame last_sent;  ///< the last frame of the transfer before it ended, for the error text
 
   /// The object as a number: its bytes, least significant first. Bytes that were not received count as zero,
   /// bytes beyond the type's size are ignored; 0 when not `ok`. `as_i32` and `as_i64` extend the sign from

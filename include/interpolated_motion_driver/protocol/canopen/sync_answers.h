@@ -45,9 +45,9 @@ class SyncAnswers {
 
  private:
   struct Pdo {
-    bool expected = false;
-    bool answers = false;
-    int missing = 0;  ///< SYNCs without their answer so far
+    bool expected = false;  ///< said by expect()
+    bool answers = false;   ///< has come since it was expected, and has not been given up
+    int missing = 0;        ///< SYNCs without their answer so far
   };
 
   Pdo& pdo(int n) { return pdos_[static_cast<std::size_t>(n - 1)]; }

@@ -19,7 +19,7 @@ class SyncTiming {
   double delay() const { return delay_; }
   /// Largest deviation of a delay from the mean in the last one to two seconds, s.
   double jitter() const { return before_ > worst_ ? before_ : worst_; }
-  std::uint64_t skipped() const { return skipped_; }
+  std::uint64_t skipped() const { return skipped_; }  ///< SYNCs not sent, see skip()
 
  private:
   static constexpr double kMemory = 16.0;

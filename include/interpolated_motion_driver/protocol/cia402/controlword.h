@@ -37,7 +37,7 @@ struct ControlStep {
     NeedsFaultReset,  ///< Fault: no walk leads out of it without saying so; write 0x0000, then 0x0080
     Impossible,       ///< the state wanted cannot be commanded, or the state is unknown
   };
-  Kind kind = Kind::Wait;
+  Kind kind = Kind::Wait;         ///< whether `controlword` is to be sent
   std::uint16_t controlword = 0;  ///< for Send
 };
 

@@ -72,13 +72,13 @@ class DeviceLink {
  private:
   friend class LineMaster;
   struct Waiting {
-    RequestId id = kNoRequest;
-    Request request;
-    int attempts = 0;
+    RequestId id = kNoRequest;  ///< of its outcome
+    Request request;            ///< as it goes on the line
+    int attempts = 0;           ///< times it has been on the line
   };
   struct Bulk {
-    Waiting waiting;
-    HostTime deadline{};
+    Waiting waiting;      ///< not yet sent
+    HostTime deadline{};  ///< when the drive must have it; the earliest on the line goes first
   };
 
   DeviceLink(LineMaster& master, std::uint8_t address, std::size_t capacity);

@@ -23,8 +23,8 @@ class LineLoad {
   static constexpr int kSlots = 10;
   static constexpr HostDuration kSlot = std::chrono::milliseconds(100);
   struct Slot {
-    std::int64_t number = -1;
-    HostDuration taken{};
+    std::int64_t number = -1;  ///< time in 100 ms since the epoch; -1: nothing yet
+    HostDuration taken{};      ///< of these 100 ms
   };
 
   void add_to_slot(std::int64_t number, HostDuration taken);

@@ -31,9 +31,9 @@ inline constexpr int kUnexpectedLineCauses = 5;  ///< values of UnexpectedLine
 /// Lines of one cause: how many, the last of them, and what had been sent before it.
 struct UnexpectedLines {
   std::uint64_t count = 0;  ///< since the master was made
-  LineText last;
-  LineText sent;    ///< the request before it
-  HostTime time{};  ///< of the last character of `last`
+  LineText last;            ///< as far as it was kept; only where `count` is not 0
+  LineText sent;            ///< the request before it
+  HostTime time{};          ///< of the last character of `last`
 };
 
 /// The host's end of one serial line with many SilverLode drives in 8-bit ASCII, sans-IO: characters received
@@ -134,13 +134,13 @@ class LineMaster {
  private:
   friend class DeviceLink;
   struct Exchange {
-    DeviceLink* device = nullptr;
-    DeviceLink::Waiting sent;
-    bool may_repeat = true;
-    HostTime begin{};
-    HostTime request_end{};
-    HostTime reply_deadline{};
-    LineText other;  ///< the last line received that was not the answer
+    DeviceLink* device = nullptr;  ///< that was asked; never null in an exchange
+    DeviceLink::Waiting sent;      ///< with this attempt counted
+    bool may_repeat = true;        ///< false once its requests have been dropped
+    HostTime begin{};              ///< when the transport took the request
+    HostTime request_end{};        ///< its last bit on the line, computed
+    HostTime reply_deadline{};     ///< when the attempt counts as unanswered
+    LineText other;                ///< the last line received that was not the answer
   };
   enum class Peeked : std::uint8_t { None, Broadcast, Control, Bulk };
 
@@ -172,12 +172,12 @@ class LineMaster {
   HostTime now_{};                     ///< latest time given
 
   struct Broadcast {
-    RequestId id = kNoRequest;
-    Request request;
+    RequestId id = kNoRequest;  ///< of broadcast()
+    Request request;            ///< to the global address
   };
   struct SentBroadcast {
-    RequestId id = kNoRequest;
-    HostTime end{};
+    RequestId id = kNoRequest;  ///< of broadcast(); kNoRequest: none has left yet
+    HostTime end{};             ///< its last bit on the line, computed
   };
   canopen::Ring<Broadcast> broadcasts_;
   RequestId last_broadcast_ = kNoRequest;

@@ -30,10 +30,10 @@ enum class OutcomeKind : std::uint8_t {
 /// How a request ended. When `attempts` is above 1 the reply may be that of an earlier attempt, so its times
 /// are of no use for a drive's clock.
 struct Outcome {
-  RequestId id = kNoRequest;
-  Request request;
-  OutcomeKind kind = OutcomeKind::Dropped;
-  std::uint8_t word_count = 0;                        ///< of `words`, 0..kMaxReplyWords
+  RequestId id = kNoRequest;                ///< as DeviceLink::request() or offer_bulk() has returned it
+  Request request;                          ///< that it is about
+  OutcomeKind kind = OutcomeKind::Dropped;  ///< decides which of the rest mean anything
+  std::uint8_t word_count = 0;              ///< of `words`, 0..kMaxReplyWords
   std::array<std::uint16_t, kMaxReplyWords> words{};  ///< Data only
   NakCode nak{};                                      ///< Refused only
   int attempts = 0;                                   ///< times the request went on the line

@@ -17,7 +17,7 @@ enum class ReplyType : std::uint8_t {
 
 /// A whole reply of a drive, all its numbers hexadecimal on the line.
 struct Reply {
-  ReplyType type = ReplyType::Ack;
+  ReplyType type = ReplyType::Ack;                    ///< decides which of the rest mean anything
   std::uint8_t address = 0;                           ///< of the drive that replies, 1..254
   std::uint16_t command = 0;                          ///< echo of the request's, Data and Nak only
   std::uint8_t word_count = 0;                        ///< of `words`, 0..kMaxReplyWords

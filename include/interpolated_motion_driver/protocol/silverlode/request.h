@@ -27,12 +27,12 @@ enum class ReplyKind : std::uint8_t {
 
 /// A request as it goes on the line in 8-bit ASCII: "@16 12 1" and CR, all numbers decimal.
 struct Request {
-  std::uint8_t address = 0;  ///< 1..254, or kGlobalAddress
-  Command command = Command::POL;
-  ReplyKind reply = ReplyKind::Ack;
-  std::uint8_t reply_words = 0;  ///< of a data reply; 0: any number
-  bool repeatable = true;        ///< false: executing it twice is not the same as once (IMW, IMS)
-  LineText text;                 ///< with the CR
+  std::uint8_t address = 0;          ///< 1..254, or kGlobalAddress
+  Command command = Command::POL;    ///< echoed by data replies and NAKs
+  ReplyKind reply = ReplyKind::Ack;  ///< when the drive accepts it
+  std::uint8_t reply_words = 0;      ///< of a data reply; 0: any number
+  bool repeatable = true;            ///< false: executing it twice is not the same as once (IMW, IMS)
+  LineText text;                     ///< with the CR
 };
 
 /// Longest reply to a request the drive accepts, in characters with the CR: ACK 5, data 10 + 5 per word, 0
