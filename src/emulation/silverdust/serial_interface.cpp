@@ -38,11 +38,6 @@ void SerialInterface::drop_answers(HostTime now) {
   line_.connect(port_, true, now);
 }
 
-std::optional<Packet> SerialInterface::on_character(char value, PollingStatus& status) {
-  if (parser_.cuts_short(value)) status.raise(polling_bit::kAborted);
-  return parser_.on_character(value);
-}
-
 bool SerialInterface::obeys(const Packet& packet) const {
   const bool shared = packet.address == kGlobalAddress || (group_ != 0 && packet.address == group_);
   return shared || packet.address == address_;

@@ -37,7 +37,10 @@ class SerialInterface {
   bool silent() const { return silent_; }
 
   /// The packet that this character has completed. One that is cut short is reported to `status`.
-  std::optional<Packet> on_character(char value, PollingStatus& status);
+  std::optional<Packet> on_character(char value, PollingStatus& status) {
+    if (parser_.cuts_short(value)) status.raise(polling_bit::kAborted);
+    return parser_.on_character(value);
+  }
 
   /// Whether the drive obeys a packet: one to itself, to its group or to everybody (255).
   bool obeys(const Packet& packet) const;
