@@ -87,6 +87,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
   c.start_tolerance = reader.number("start_tolerance", c.start_tolerance, 0.0, 10.0);
+  c.max_start_ahead = reader.number("max_start_ahead", c.max_start_ahead, 1.0, 1e6);
   c.commit_horizon = reader.number("commit_horizon", c.commit_horizon, 0.1, 60.0);
   c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);
   c.settle_timeout = reader.number("settle_timeout", c.settle_timeout, 0.0, 600.0);

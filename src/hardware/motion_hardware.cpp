@@ -36,6 +36,7 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
     goal.push_back(known ? found->second.goal : 0.0);
   }
   parameters.rules.allow_partial_joints = configuration.allow_partial_joints_goal;
+  parameters.rules.max_start_ahead = GoalTime{configuration.max_start_ahead};
   parameters.tolerances = trajectory::default_tolerances(
       path, goal, configuration.constraints.stopped_velocity_tolerance, configuration.constraints.goal_time);
   parameters.settle_timeout = host_duration(configuration.settle_timeout);

@@ -148,6 +148,7 @@ Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRule
   if (auto refusal = validate_goal(goal, rules.joints, rules.allow_partial_joints)) return *refusal;
   if (is_stop_request(goal))
     return Refusal{GoalError::InvalidGoal, "The goal has no points: it is a request to stop."};
+  if (auto refusal = validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   const auto columns = joint_columns(goal.joint_names, rules.joints, rules.allow_partial_joints);
   if (!columns) return columns.error();
   const auto future = drop_past_points(goal, now);
