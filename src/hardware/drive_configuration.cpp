@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/hardware/drive_configuration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,6 +18,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Without a limit of its own a joint may reach its velocity limit within this time.
 constexpr double kDefaultAccelerationTime = 0.1;
+/// A joint at its limit may read as much beyond it, in counts: rounding, and what a drive's demand may be off
+/// where it rests. The drives' own limits (0x607D) leave as much room.
+constexpr double kPositionSlackInCounts = 2.0;
 
 /// A limit of the configuration may tighten that of the URDF, never widen it.
 double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper) {
@@ -102,6 +106,8 @@ DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader,
   drive.kind = parse_kind(reader, kinds);
   drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
+  drive.limits.position_slack = std::max(
+      drive.limits.position_slack, kPositionSlackInCounts / std::abs(drive.transmission.counts_per_radian()));
   drive.deviation_bound =
       reader.number("deviation_bound", drive.kind->default_deviation_bound(), 0.6, 1000.0);
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);

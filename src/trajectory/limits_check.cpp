@@ -8,18 +8,17 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/trajectory/extrema.h"
+#include "interpolated_motion_driver/trajectory/position_bounds.h"
 
 namespace interpolated_motion::trajectory {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The limits with their slack.
 struct Bounds {
-  explicit Bounds(const JointLimits& limits)
-      : lower(limits.continuous ? -kInfinity : limits.min_position - kPositionSlack),
-        upper(limits.continuous ? kInfinity : limits.max_position + kPositionSlack),
+  Bounds(const JointLimits& limits, const PositionBounds& positions)
+      : lower(positions.lower()),
+        upper(positions.upper()),
         velocity(limits.max_velocity * (1.0 + kRateSlack)),
         acceleration(limits.max_acceleration * (1.0 + kRateSlack)) {}
 
@@ -86,8 +85,12 @@ std::optional<LimitViolation> violation(Quantity quantity, const Piece& piece, c
   if (within(range.minimum.value, lower, upper) && within(range.maximum.value, lower, upper))
     return std::nullopt;
   const Extremum extremum = worst(range, lower, upper);
-  return LimitViolation{quantity, piece.start + GoalTime(extremum.time), extremum.value,
-                        allowed.minimum.value, allowed.maximum.value};
+  return LimitViolation{quantity,
+                        piece.start + GoalTime(extremum.time),
+                        extremum.value,
+                        allowed.minimum.value,
+                        allowed.maximum.value,
+                        std::nullopt};
 }
 
 Range symmetric(double limit) { return {{0.0, -limit}, {0.0, limit}}; }
@@ -109,6 +112,13 @@ std::optional<LimitViolation> exact_violation(const Piece& piece, const JointLim
                    bounds.acceleration, symmetric(limits.max_acceleration));
 }
 
+LimitViolation way_in_violation(const Piece& piece, const Extremum& farther, double start,
+                                const JointLimits& limits) {
+  return {Quantity::Position,  piece.start + GoalTime(farther.time),
+          farther.value,       limits.min_position,
+          limits.max_position, start};
+}
+
 /// By how much the time has to be stretched to bring a velocity or an acceleration back to its limit.
 double stretch(const LimitViolation& violation) {
   const double ratio = std::abs(violation.value) / violation.maximum;
@@ -116,6 +126,11 @@ double stretch(const LimitViolation& violation) {
 }
 
 std::string advice(const LimitViolation& violation) {
+  if (violation.begins_outside) {
+    return fmt::format(
+        "The joint stands outside, at {:.7g}: from there only the way in is allowed, and not out again.",
+        *violation.begins_outside);
+  }
   if (violation.quantity == Quantity::Position) return "Plan within the joint's limits, or correct them.";
   return fmt::format("Slow the trajectory down by a factor of {:.4g} or more, or correct the joint's limits.",
                      std::ceil(1000.0 * stretch(violation)) / 1000.0);
@@ -136,12 +151,26 @@ const char* name(Quantity quantity) {
 }
 
 std::optional<LimitViolation> find_limit_violation(const Path& path, const JointLimits& limits) {
-  const Bounds bounds(limits);
+  if (path.pieces().empty()) return std::nullopt;
+  const double start = path.pieces().front().polynomial.position(0.0);
+  PositionBounds positions(limits, start);
   for (const Piece& piece : path.pieces()) {
+    const Bounds bounds(limits, positions);
+    if (positions.outside()) {
+      if (const auto farther = positions.follow(piece))
+        return way_in_violation(piece, *farther, start, limits);
+    }
     if (surely_within(piece.polynomial, piece.duration().count(), bounds)) continue;
     if (const auto found = exact_violation(piece, limits, bounds)) return found;
   }
   return std::nullopt;
+}
+
+std::optional<LimitViolation> find_position_violation(const Path& path, const JointLimits& limits) {
+  JointLimits positions = limits;
+  positions.max_velocity = std::numeric_limits<double>::infinity();
+  positions.max_acceleration = std::numeric_limits<double>::infinity();
+  return find_limit_violation(path, positions);
 }
 
 Refusal limit_refusal(const std::string& joint, const LimitViolation& violation) {

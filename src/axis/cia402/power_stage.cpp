@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/axis/cia402/power_stage.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -106,9 +107,10 @@ void Cia402PowerStage::enable(HostTime now) {
   enter(Stage::Enabling, now);
   by_pdo_ = false;
   const auto mode = static_cast<std::int8_t>(settings_.mode);
-  sequence_.start(
-      {SdoSequence::write(canopen::sdo_write<std::int8_t>(object::kModeOfOperation, mode)), read_mode()},
-      now);
+  std::vector<SdoSequence::Step> steps = device_.enable_steps();
+  steps.push_back(SdoSequence::write(canopen::sdo_write<std::int8_t>(object::kModeOfOperation, mode)));
+  steps.push_back(read_mode());
+  sequence_.start(std::move(steps), now);
 }
 
 SdoSequence::Step Cia402PowerStage::read_mode() {

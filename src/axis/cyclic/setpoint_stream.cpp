@@ -6,18 +6,6 @@
 
 namespace interpolated_motion::axis {
 
-namespace {
-
-bool leaves_positions(const trajectory::Path& path, const trajectory::JointLimits& limits) {
-  trajectory::JointLimits positions;
-  positions.min_position = limits.min_position;
-  positions.max_position = limits.max_position;
-  positions.continuous = limits.continuous;
-  return trajectory::find_limit_violation(path, positions).has_value();
-}
-
-}  // namespace
-
 void SetpointStream::rest(std::int32_t counts) { rest_ = counts; }
 
 void SetpointStream::follow(const trajectory::Path& path, HostTime begin) {
@@ -35,7 +23,7 @@ void SetpointStream::brake(const trajectory::JointLimits& limits) {
   const GoalTime now = goal_time(newest_);
   const trajectory::State state = path_.sample(now);
   trajectory::Path stop = trajectory::stop_path(state, now, limits);
-  if (leaves_positions(stop, limits)) stop = trajectory::shortest_stop_path(state, now, limits);
+  if (trajectory::find_position_violation(stop, limits)) stop = trajectory::shortest_stop_path(state, now, limits);
   follow(stop, newest_);
 }
 
