@@ -112,6 +112,9 @@ DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader,
       reader.number("deviation_bound", drive.kind->default_deviation_bound(), 0.6, 1000.0);
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
+  drive.plan_margin =
+      reader.number("plan_margin", std::min(drive.plan_margin, drive.limit_margin), 1.0, drive.limit_margin);
+  drive.limits.rate_slack = drive.plan_margin - 1.0;
   const DriveNumbers& numbers = drive_numbers(drive.kind->bus_type());
   drive.number = static_cast<int>(reader.required_integer(numbers.key, 1, numbers.highest));
   parse_settings(reader, drive);

@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -120,11 +121,27 @@ class PathMaker {
     return Path(std::move(pieces));
   }
 
+  bool stops_at_every_point() const {
+    const auto stops = [this](std::size_t index) {
+      const std::vector<double>& velocities = goal_.points[index].velocities;
+      return !velocities.empty() && std::all_of(velocities.begin(), velocities.end(),
+                                                [](double v) { return std::abs(v) <= kRestVelocity; });
+    };
+    const bool has_inner_points = selection_.points.size() + (start_.bridge ? 1 : 0) > 2;
+    return has_inner_points && std::all_of(selection_.points.begin(), selection_.points.end(), stops);
+  }
+
   Refusal refuse(std::size_t joint, LimitViolation violation) const {
     const std::size_t first = selection_.points.front();
     const bool on_bridge = start_.bridge && violation.time < time_of(first);
     violation.time += selection_.skipped;
     Refusal refusal = limit_refusal(rules_.joints[joint], violation);
+    if (stops_at_every_point()) {
+      refusal.text +=
+          " Every point has velocity 0, so the trajectory stops at each of them and sets out again: leave "
+          "the velocities "
+          "out, and a smooth path is made through the points, or give those that the motion has there.";
+    }
     if (on_bridge) {
       refusal.text += fmt::format(
           " This is on the way from rest at the present position {:.6g} to points[{}], for which "

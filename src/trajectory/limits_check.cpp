@@ -19,8 +19,8 @@ struct Bounds {
   Bounds(const JointLimits& limits, const PositionBounds& positions)
       : lower(positions.lower()),
         upper(positions.upper()),
-        velocity(limits.max_velocity * (1.0 + kRateSlack)),
-        acceleration(limits.max_acceleration * (1.0 + kRateSlack)) {}
+        velocity(limits.max_velocity * (1.0 + limits.rate_slack)),
+        acceleration(limits.max_acceleration * (1.0 + limits.rate_slack)) {}
 
   double lower;
   double upper;
@@ -85,11 +85,13 @@ std::optional<LimitViolation> violation(Quantity quantity, const Piece& piece, c
   if (within(range.minimum.value, lower, upper) && within(range.maximum.value, lower, upper))
     return std::nullopt;
   const Extremum extremum = worst(range, lower, upper);
+  const bool at_knot = extremum.time == 0.0 || extremum.time == piece.duration().count();
   return LimitViolation{quantity,
                         piece.start + GoalTime(extremum.time),
                         extremum.value,
                         allowed.minimum.value,
                         allowed.maximum.value,
+                        at_knot,
                         std::nullopt};
 }
 
@@ -114,9 +116,9 @@ std::optional<LimitViolation> exact_violation(const Piece& piece, const JointLim
 
 LimitViolation way_in_violation(const Piece& piece, const Extremum& farther, double start,
                                 const JointLimits& limits) {
-  return {Quantity::Position,  piece.start + GoalTime(farther.time),
-          farther.value,       limits.min_position,
-          limits.max_position, start};
+  const bool at_knot = farther.time == piece.duration().count();
+  const GoalTime time = piece.start + GoalTime(farther.time);
+  return {Quantity::Position, time, farther.value, limits.min_position, limits.max_position, at_knot, start};
 }
 
 /// By how much the time has to be stretched to bring a velocity or an acceleration back to its limit.
@@ -125,14 +127,37 @@ double stretch(const LimitViolation& violation) {
   return violation.quantity == Quantity::Velocity ? ratio : std::sqrt(ratio);
 }
 
+/// Beyond its limit by no more than this part, a velocity or an acceleration may have come there by rounding.
+constexpr double kLittle = 0.05;
+
+/// Where a velocity or an acceleration beyond its limit comes from.
+std::string cause(const LimitViolation& violation) {
+  const double excess = std::abs(violation.value) / violation.maximum - 1.0;
+  if (excess <= kLittle) {
+    return fmt::format(
+        "It is {:.2g} % more, as rounding of the points makes it where the planner has the same limits: give "
+        "the "
+        "planner {:.2f} of them, or raise plan_margin of the joint. ",
+        100.0 * excess, std::floor(100.0 / (1.0 + excess)) / 100.0);
+  }
+  if (violation.at_knot)
+    return "A point asks for it itself: the planner's limits are wider than the joint's. ";
+  return "The curve between two points does: give accelerations with the points, or more points. ";
+}
+
 std::string advice(const LimitViolation& violation) {
   if (violation.begins_outside) {
     return fmt::format(
         "The joint stands outside, at {:.7g}: from there only the way in is allowed, and not out again.",
         *violation.begins_outside);
   }
-  if (violation.quantity == Quantity::Position) return "Plan within the joint's limits, or correct them.";
-  return fmt::format("Slow the trajectory down by a factor of {:.4g} or more, or correct the joint's limits.",
+  if (violation.quantity == Quantity::Position) {
+    const char* where =
+        violation.at_knot ? "A point is outside. " : "The curve between two points is outside. ";
+    return std::string(where) + "Plan within the joint's limits, or correct them.";
+  }
+  return cause(violation) +
+         fmt::format("Slow the trajectory down by a factor of {:.4g} or more, or correct the joint's limits.",
                      std::ceil(1000.0 * stretch(violation)) / 1000.0);
 }
 

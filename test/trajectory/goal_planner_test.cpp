@@ -197,6 +197,20 @@ TEST(GoalPlanner, UnwindsAContinuousJointAtHalfATurn) {
   }
 }
 
+TEST(GoalPlanner, RecognisesAStopAtEveryPoint) {
+  const JointLimits limits = limits_of(3.0, 2.0);
+  const auto text = refusal_of_one(
+      {point(0, {0}, {0}), point(0.5, {0.2}, {0}), point(1, {0.4}, {0}), point(1.5, {0.6}, {0})}, 0.0,
+      limits);
+  EXPECT_TRUE(contains(text, "the acceleration")) << text;
+  EXPECT_TRUE(contains(text, "Every point has velocity 0, so the trajectory stops at each of them")) << text;
+  const auto without =
+      refusal_of_one({point(0, {0}, {0}), point(0.5, {0.2}, {0.4}), point(1, {0.9}, {0})}, 0.0, limits);
+  EXPECT_FALSE(contains(without, "Every point")) << without;
+  const auto two = refusal_of_one({point(0, {0}, {0}), point(0.5, {0.9}, {0})}, 0.0, limits);
+  EXPECT_FALSE(contains(two, "Every point")) << two;
+}
+
 TEST(GoalPlanner, LetsUnnamedJointsRest) {
   GoalRules rules = rules_for(2, limits_of(3, 10));
   const Goal goal = one_joint({point(0, {0}), point(1, {1})});

@@ -64,6 +64,36 @@ JointLimits between(double low, double high) {
   return limits;
 }
 
+TEST(LimitsCheck, SaysWhetherItIsRoundingAKnotOrBetweenKnots) {
+  JointLimits limits;
+  limits.max_velocity = 1.875 / 1.02;
+  const auto text_of = [&limits](const Path& path) {
+    return limit_refusal("elbow", *find_limit_violation(path, limits)).text;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(text_of(unit_move()), "It is 2 % more, as rounding")) << text_of(unit_move());
+  EXPECT_TRUE(has(text_of(unit_move()), "give the planner 0.98 of them, or raise plan_margin"))
+      << text_of(unit_move());
+  limits.max_velocity = 1.5;
+  EXPECT_TRUE(has(text_of(unit_move()), "The curve between two points")) << text_of(unit_move());
+  EXPECT_TRUE(has(text_of(unit_move()), "by a factor of 1.25 or more"));
+  const Piece fast_end{GoalTime(0), GoalTime(1), Polynomial{{0.0, 0.0, 1.0, 0.0, 0.0, 0.0}}};
+  EXPECT_TRUE(has(text_of(Path({fast_end})), "A point asks for it itself")) << text_of(Path({fast_end}));
+}
+
+TEST(LimitsCheck, LeavesThePlanItsMargin) {
+  JointLimits limits;
+  limits.max_velocity = 1.875 / 1.009;
+  limits.max_acceleration = 10.0 / std::sqrt(3.0) / 1.009;
+  EXPECT_TRUE(find_limit_violation(unit_move(), limits));
+  limits.rate_slack = 0.01;
+  EXPECT_FALSE(find_limit_violation(unit_move(), limits));
+  limits.rate_slack = 0.008;
+  EXPECT_TRUE(find_limit_violation(unit_move(), limits));
+}
+
 TEST(LimitsCheck, LeavesTheSlackOfTheJoint) {
   JointLimits limits = between(0.0, 1.0);
   EXPECT_TRUE(find_limit_violation(through({0.5, 1.00005, 0.5}), limits));

@@ -10,10 +10,6 @@
 
 namespace interpolated_motion::trajectory {
 
-/// How far a velocity or an acceleration may be beyond its limit, as a part of it, for what is left of a
-/// value at the limit after printing and rounding (toppra gives 2.5000147 at a limit of 2.5).
-inline constexpr double kRateSlack = 1e-4;
-
 enum class Quantity { Position, Velocity, Acceleration };
 
 /// "position", "velocity" or "acceleration".
@@ -26,6 +22,7 @@ struct LimitViolation {
   double value = 0.0;    ///< rad or m, per s, per s^2
   double minimum = 0.0;  ///< allowed, in the same unit; slack not included
   double maximum = 0.0;  ///< allowed, in the same unit; slack not included
+  bool at_knot = false;  ///< at the begin or end of a piece, else within one
   /// Where the path begins, if that is outside the limits of position (rad or m) and so is the violation.
   std::optional<double> begins_outside;
 };
@@ -41,7 +38,8 @@ std::optional<LimitViolation> find_limit_violation(const Path& path, const Joint
 /// The same of positions alone.
 std::optional<LimitViolation> find_position_violation(const Path& path, const JointLimits& limits);
 
-/// The refusal for it: names joint, value, time, allowed range, and what to do.
+/// The refusal for it: names joint, value, time, allowed range, whether a point asks for it itself, the curve
+/// between two points does, or it is little enough to come from rounding, and what to do.
 Refusal limit_refusal(const std::string& joint, const LimitViolation& violation);
 
 }  // namespace interpolated_motion::trajectory
