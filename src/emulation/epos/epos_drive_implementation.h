@@ -70,6 +70,7 @@ class EposDrive::Implementation : public CanopenServo {
   EposObjects objects_;
   std::optional<ObjectDictionary::Values> stored_;
   DeviceControl device_;
+  std::uint16_t fault_code_ = 0;  ///< of the EMCY message of the last fault
   InterpolatedPositionMode ip_;
   Plant plant_;
 
