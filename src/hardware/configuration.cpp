@@ -46,6 +46,20 @@ motion::StreamParameters parse_setpoints(ParameterReader reader) {
   return stream;
 }
 
+/// Parameters as for a controller of ros_control stand under the controller's name.
+void refuse_nested(const ParameterReader& reader) {
+  if (reader.has("joints")) return;
+  for (const std::string& key : reader.keys()) {
+    const YAML::Node value = reader.node()[key];
+    if (!value.IsMap() || !value["joints"].IsDefined()) continue;
+    reader.fail("joints",
+                fmt::format("is missing, and there is {0}/joints: the configuration stands under the name "
+                            "{0}. Take that level away, or give the node that name and load the file "
+                            "beside it, not into it",
+                            key));
+  }
+}
+
 void mark_isochronous_buses(Configuration& configuration) {
   for (const DriveConfiguration& drive : configuration.drives) {
     if (!drive.kind->follows_host_time()) continue;
@@ -70,6 +84,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
                                   const std::vector<std::string>& node_keys, const DriveKinds& kinds) {
   ParameterReader reader(parameters, "");
   Configuration configuration;
+  refuse_nested(reader);
   configuration.joints = reader.names("joints");
   ParameterReader buses = reader.map("buses");
   for (const std::string& name : buses.keys())
