@@ -52,7 +52,7 @@ std::optional<Refusal> Group::refuse_now() const {
     default:
       break;
   }
-  if (disable_when_stopped_) return Refusal{GoalError::InvalidGoal, "The drives are being disabled."};
+  if (power_off_ != PowerOff::No) return Refusal{GoalError::InvalidGoal, "The drives are being disabled."};
   return std::nullopt;
 }
 

@@ -146,7 +146,25 @@ void Cia402PowerStage::poll_enabling(HostTime now) {
 }
 
 void Cia402PowerStage::disable(HostTime now) {
-  if (state() == AxisState::Ready) enter(Stage::Disabling, now);
+  if (state() == AxisState::Ready) return enter(Stage::Disabling, now);
+  AxisBase::disable(now);
+}
+
+// By SDO: a drive that has restarted has lost the mapping of its PDOs.
+std::optional<bool> Cia402PowerStage::switch_off(HostTime now) {
+  if (sequence_.running()) return std::nullopt;
+  if (sequence_.state() == SdoSequence::State::Failed) return false;
+  if (sequence_.state() == SdoSequence::State::Done && !is_powered()) return true;
+  const auto take_statusword = [this](const SdoResult& r) -> std::optional<std::string> {
+    if (!r.ok) return r.text();
+    report_.statusword = cia402::Statusword{r.as_u16()};
+    return std::nullopt;
+  };
+  const std::uint16_t word = cia402::controlword::kDisableVoltage;
+  sequence_.start({SdoSequence::write(canopen::sdo_write<std::uint16_t>(object::kControlword, word)),
+                   SdoSequence::read(object::kStatusword, take_statusword)},
+                  now);
+  return std::nullopt;
 }
 
 void Cia402PowerStage::poll_disabling(HostTime now) {
@@ -154,7 +172,8 @@ void Cia402PowerStage::poll_disabling(HostTime now) {
 }
 
 void Cia402PowerStage::reset_fault(HostTime now) {
-  if (stage() == Stage::Offline || (stage() == Stage::Fault && !configured_)) return bring_up(now);
+  const bool lost = stage() == Stage::Offline || stage() == Stage::SwitchingOff;
+  if (lost || (stage() == Stage::Fault && !configured_)) return bring_up(now);
   if (stage() != Stage::Fault) return;
   enter(Stage::Resetting, now);
 }

@@ -147,14 +147,20 @@ void SilverlodePowerStage::enable(HostTime now) {
 }
 
 void SilverlodePowerStage::disable(HostTime now) {
-  if (state() != AxisState::Ready) return;
+  if (state() != AxisState::Ready) return AxisBase::disable(now);
   enter(Stage::Disabling, now);
   sequence_.start(commands_.disable(), now);
 }
 
+std::optional<bool> SilverlodePowerStage::switch_off(HostTime now) {
+  if (sequence_.state() == CommandSequence::State::Idle) sequence_.start(commands_.disable(), now);
+  if (sequence_.running()) return std::nullopt;
+  return sequence_.state() == CommandSequence::State::Done;
+}
+
 // Whatever has happened to it, the drive is set up anew: it may have lost its settings with its power.
 void SilverlodePowerStage::reset_fault(HostTime now) {
-  if (stage() == Stage::Fault || stage() == Stage::Offline) bring_up(now);
+  if (stage() == Stage::Fault || stage() == Stage::Offline || stage() == Stage::SwitchingOff) bring_up(now);
 }
 
 // Watching.
@@ -173,7 +179,8 @@ void SilverlodePowerStage::look_at_drive(HostTime now) {
 
 HostDuration SilverlodePowerStage::look_period() const {
   if (player_->interpolates()) return parameters_.status_period;
-  const bool in_fault = stage() == Stage::Fault || stage() == Stage::FaultStopping;
+  const bool in_fault =
+      stage() == Stage::Fault || stage() == Stage::FaultStopping || stage() == Stage::SwitchingOff;
   return in_fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;
 }
 
@@ -220,7 +227,7 @@ void SilverlodePowerStage::drive_status(AxisStatus& out) const {
 
 std::string SilverlodePowerStage::state_text() const {
   if (stage() == Stage::FaultStopping) return "Stopping with a fault";
-  if (stage() == Stage::Fault || status_.polling.fault()) return "Fault";
+  if (stage() == Stage::Fault || stage() == Stage::SwitchingOff || status_.polling.fault()) return "Fault";
   if (stage() == Stage::Offline || stage() == Stage::Probing) return "Offline";
   if (player_->interpolates()) return "Interpolated motion";
   return enabled() ? "Driver enabled" : "Driver disabled";

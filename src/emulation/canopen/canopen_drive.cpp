@@ -29,6 +29,8 @@ std::int32_t CanopenDrive::position() const {
   return static_cast<std::int32_t>(std::llround(servo_->plant().position()));
 }
 
+bool CanopenDrive::has_torque() const { return servo_->has_torque(); }
+
 void CanopenDrive::power_cycle(HostTime now, HostDuration off) {
   servo_->power_cycle(now, off);
   next_event_ = servo_->next_event();

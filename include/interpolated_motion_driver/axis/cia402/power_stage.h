@@ -66,6 +66,7 @@ class Cia402PowerStage final : public AxisBase {
   void drop_work() override { sequence_.cancel(); }
   void press_stop(HostTime now) override;
   bool stands() const override;
+  std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
   void collect_emergencies();

@@ -73,6 +73,7 @@ class SilverlodePowerStage final : public AxisBase {
   void press_stop(HostTime now) override;
   bool stands() const override { return sequence_.state() == CommandSequence::State::Done; }
   bool obeys_stop() const override { return sequence_.running() && heard_stop_; }
+  std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
   void look_at_drive(HostTime now);
