@@ -82,6 +82,9 @@ void SilverlodePowerStage::go_on(HostDuration away, HostTime now) {
 void SilverlodePowerStage::poll_stage(HostTime now) {
   switch (stage()) {
     case Stage::Configuring:
+      if (!facts_.found_fault.empty() && !sequence_.running()) note_found_fault(now);
+      if (sequence_done(now)) enter(Stage::Disabled, now);
+      return;
     case Stage::Disabling:
       if (sequence_done(now)) enter(Stage::Disabled, now);
       return;
@@ -163,6 +166,12 @@ void SilverlodePowerStage::reset_fault(HostTime now) {
   if (stage() == Stage::Fault || stage() == Stage::Offline || stage() == Stage::SwitchingOff) bring_up(now);
 }
 
+void SilverlodePowerStage::note_found_fault(HostTime now) {
+  notes().add({true, fmt::format("{}: found with a fault, which is cleared now: the drive reports: {}.",
+                                 who(), std::exchange(facts_.found_fault, {}))},
+              now);
+}
+
 // Watching.
 
 /// Asks the drive for its status when the line has nothing better to do, and after a while even if it has.
@@ -206,7 +215,11 @@ void SilverlodePowerStage::press_stop(HostTime now) {
     heard_stop_ = outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused;
     return heard_stop_ ? std::nullopt : std::optional<std::string>(device_.text(outcome));
   };
-  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault)}, now);
+  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault), commands_.read_faults()}, now);
+}
+
+std::string SilverlodePowerStage::cause_text() const {
+  return status_.polling.fault() ? " It reports: " + status_.polling.text() + "." : std::string();
 }
 
 std::string SilverlodePowerStage::unseen_text() const {
