@@ -114,7 +114,7 @@ void CanopenNode::send_state(std::uint8_t state) {
 void CanopenNode::emergency(std::uint16_t code, std::uint8_t error_register, HostTime now) {
   if (!on()) return;
   now_ = std::max(now_, now);
-  emergencies_.raise(code, error_register, now_);
+  code == 0 ? emergencies_.reset(now_) : emergencies_.raise(code, error_register, now_);
 }
 
 void CanopenNode::on_frame(const canopen::Frame& frame, HostTime time) {
