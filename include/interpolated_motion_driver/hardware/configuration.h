@@ -31,11 +31,11 @@ struct Configuration {
   ConstraintConfiguration constraints;
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;
-  double start_tolerance = 0.05;  ///< rad, of a goal's first point at t = 0 against the present position
+  double start_tolerance = 0.05;    ///< rad, of a goal's first point at t = 0 against the present position
   double max_start_ahead = 3600.0;  ///< s from now to a goal's stamp; one further ahead is refused
-  double commit_horizon = 2.0;    ///< s of motion kept in the drives' FIFOs
-  double bring_up_timeout = 5.0;  ///< s for all drives to answer and be configured
-  double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
+  double commit_horizon = 2.0;      ///< s of motion kept in the drives' FIFOs
+  double bring_up_timeout = 5.0;    ///< s for all drives to answer and be configured
+  double settle_timeout = 0.5;      ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;
   motion::StreamParameters setpoints;
 

@@ -23,7 +23,8 @@ void SetpointStream::brake(const trajectory::JointLimits& limits) {
   const GoalTime now = goal_time(newest_);
   const trajectory::State state = path_.sample(now);
   trajectory::Path stop = trajectory::stop_path(state, now, limits);
-  if (trajectory::find_position_violation(stop, limits)) stop = trajectory::shortest_stop_path(state, now, limits);
+  if (trajectory::find_position_violation(stop, limits))
+    stop = trajectory::shortest_stop_path(state, now, limits);
   follow(stop, newest_);
 }
 
