@@ -12,8 +12,8 @@ set(IMD_USES_axis encoding protocol)
 set(IMD_USES_motion axis trajectory)
 set(IMD_USES_transport protocol)
 set(IMD_USES_emulation interpolation protocol transport)
-set(IMD_USES_hardware motion transport emulation)
-set(IMD_USES_command_line "")
+set(IMD_USES_hardware motion transport emulation units)
+set(IMD_USES_command_line units)
 
 # Sets IMD_SOURCES_<stage>, and IMD_LIBRARIES to the stages that have a library to link: users before the used, as static
 # libraries want it. A stage of headers only has none.

@@ -6,6 +6,13 @@
 
 namespace interpolated_motion::axis {
 
+namespace {
+
+/// Longest for a drive in fault to be switched off; one that does not answer is given up then.
+constexpr HostDuration kSwitchOffTimeout = std::chrono::milliseconds(1500);
+
+}  // namespace
+
 AxisState AxisBase::state() const {
   switch (stage_) {
     case Stage::Offline:
@@ -23,6 +30,7 @@ AxisState AxisBase::state() const {
     case Stage::Disabling:
       return AxisState::Stopping;
     case Stage::FaultStopping:
+    case Stage::SwitchingOff:
       return AxisState::FaultStopping;
     case Stage::Fault:
       break;
@@ -66,6 +74,8 @@ void AxisBase::run_stage(HostTime now) {
       return player_->play(now);
     case Stage::FaultStopping:
       return poll_fault_stopping(now);
+    case Stage::SwitchingOff:
+      return poll_switching_off(now);
     default:
       return poll_stage(now);
   }
@@ -106,7 +116,7 @@ void AxisBase::fail(const std::string& reason, HostTime now) { end_in(Stage::Fau
 void AxisBase::lose(const std::string& reason, HostTime now) { end_in(Stage::Offline, reason, now); }
 
 void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
-  if (stage_ == Stage::FaultStopping) {
+  if (stage_ == Stage::FaultStopping || stage_ == Stage::SwitchingOff) {
     if (stage == Stage::Offline) after_stop_ = stage;
     return;
   }
@@ -121,7 +131,8 @@ void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
 }
 
 void AxisBase::go_offline(const std::string& reason, HostTime now) {
-  if (stage_ != Stage::FaultStopping) fault_text_ = fmt::format("{}: {}.", who(), reason);
+  if (stage_ != Stage::FaultStopping && stage_ != Stage::SwitchingOff)
+    fault_text_ = fmt::format("{}: {}.", who(), reason);
   player_->give_up(now);
   drop_work();
   enter(Stage::Offline, now);
@@ -130,18 +141,38 @@ void AxisBase::go_offline(const std::string& reason, HostTime now) {
 /// A drive that does not answer is told again until all that it may have to play must be over and it has
 /// braked by itself.
 void AxisBase::poll_fault_stopping(HostTime now) {
-  if (stands()) return end_fault_stopping(" The drive has come to rest.", now);
-  if (now < rest_due_ || obeys_stop()) return press_stop(now);
-  end_fault_stopping(
-      fmt::format(
-          " The drive has not been seen at rest ({}); {:.1f} s after the fault all that it had to play "
-          "is over, and it has braked by itself if it still works.",
-          unseen_text(), seconds(now - time_.since())),
-      now);
+  const bool rests = stands();
+  if (!rests && (now < rest_due_ || obeys_stop())) return press_stop(now);
+  if (rests) {
+    fault_text_ += " The drive has come to rest." + cause_text();
+  } else {
+    fault_text_ += fmt::format(
+        " The drive has not been seen at rest ({}); {:.1f} s after the fault all that it had to play "
+        "is over, and it has braked by itself if it still works.",
+        unseen_text(), seconds(now - time_.since()));
+  }
+  drop_work();
+  enter(after_stop_, now);
 }
 
-void AxisBase::end_fault_stopping(const std::string& how, HostTime now) {
-  fault_text_ += how;
+// What the host has found wrong need not have switched the drive off.
+void AxisBase::disable(HostTime now) {
+  if (stage_ != Stage::Fault && stage_ != Stage::Offline) return;
+  after_stop_ = stage_;
+  drop_work();
+  enter(Stage::SwitchingOff, now);
+}
+
+void AxisBase::poll_switching_off(HostTime now) {
+  const std::optional<bool> off = switch_off(now);
+  if (!off && !time_.expired(now, kSwitchOffTimeout)) return;
+  if (!off.value_or(false)) {
+    notes().add(
+        {true, fmt::format("{}: the drive could not be told to switch its power stage off ({}). If it has "
+                           "power, it may be on.",
+                           who(), unseen_text())},
+        now);
+  }
   drop_work();
   enter(after_stop_, now);
 }

@@ -13,7 +13,7 @@
 #include <boost/program_options/value_semantic.hpp>
 #include <boost/program_options/variables_map.hpp>
 
-#include "interpolated_motion_driver/command_line/closest_name.h"
+#include "interpolated_motion_driver/units/closest_name.h"
 
 namespace interpolated_motion::command_line {
 namespace {

@@ -1,10 +1,15 @@
 #include "options.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "interpolated_motion_driver/command_line/option_set.h"
+#include "interpolated_motion_driver/hardware/bus_configuration.h"
 
 namespace interpolated_motion::emulated_drives {
 namespace {
@@ -79,7 +84,27 @@ void check_drives(const Options& options, const std::string& place, const std::v
     throw std::invalid_argument(fmt::format("{}: say where, by --can INTERFACE or --serial LINK", example));
 }
 
+void refuse_twice(const char* option, const std::vector<int>& numbers) {
+  std::set<int> seen;
+  for (const int number : numbers) {
+    if (seen.insert(number).second) continue;
+    throw std::invalid_argument(
+        fmt::format("{} names {} twice; each drive needs a number of its own", option, number));
+  }
+}
+
+void check_rate(const char* option, int rate, const std::vector<std::uint32_t>& allowed) {
+  const bool is_allowed =
+      std::find(allowed.begin(), allowed.end(), static_cast<std::uint32_t>(rate)) != allowed.end();
+  if (rate == 0 || is_allowed) return;
+  throw std::invalid_argument(fmt::format("{} is {}; allowed: {}", option, rate, fmt::join(allowed, ", ")));
+}
+
 void check(const Options& options) {
+  refuse_twice("--epos", options.nodes);
+  refuse_twice("--silverlode", options.addresses);
+  check_rate("--baud", options.baud, hardware::serial_rates());
+  check_rate("--bitrate", options.bitrate, hardware::can_rates());
   if (options.interface.empty() && options.link.empty() && options.config_file.empty()) {
     throw std::invalid_argument(
         "say what to serve: --can INTERFACE (such as --can vcan0), --serial LINK, or --config FILE");

@@ -148,6 +148,13 @@ std::optional<double> Assembly::emulated_position(std::size_t joint) const {
   return std::nullopt;
 }
 
+std::optional<bool> Assembly::emulated_power(std::size_t joint) const {
+  for (const auto& [name, emulated] : emulated_drives_) {
+    if (emulated.joint == joint) return emulated.drive->has_torque();
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> Assembly::inject(const std::string& target, const std::string& command,
                                             HostTime now) {
   const auto drive = emulated_drives_.find(target);

@@ -19,6 +19,7 @@ const std::vector<std::pair<std::string, std::uint32_t>> kBauds = {
     {"19200", 19200},   {"28800", 28800},   {"38400", 38400},  {"57600", 57600}, {"100000", 100000},
     {"115200", 115200}, {"230400", 230400}, {"250000", 250000}};
 
+/// CiA 301, table 1.
 const std::vector<std::pair<std::string, std::uint32_t>> kBitrates = {
     {"1000000", 1000000}, {"800000", 800000}, {"500000", 500000}, {"250000", 250000},
     {"125000", 125000},   {"50000", 50000},   {"20000", 20000}};
@@ -81,11 +82,12 @@ void parse_transport(ParameterReader& reader, BusConfiguration& bus) {
       is_can ? std::pair("socketcan", TransportKind::Socketcan) : std::pair("serial", TransportKind::Serial);
   bus.transport = reader.choice("transport", bus.transport, {{"emulated", TransportKind::Emulated}, real});
   if (bus.transport == TransportKind::Socketcan) {
-    bus.socketcan.interface = reader.text("interface", bus.name);
+    bus.socketcan.interface = reader.has("interface") ? reader.required_name("interface") : bus.name;
+    reader.ignore("interface");
     bus.socketcan.receive_all = reader.boolean("receive_all", bus.socketcan.receive_all);
   }
   if (bus.transport == TransportKind::Serial) {
-    bus.port.device = reader.required_text("device");
+    bus.port.device = reader.required_name("device");
     bus.port.low_latency = reader.boolean("low_latency", bus.port.low_latency);
     bus.port.rs485 = reader.boolean("rs485", bus.port.rs485);
   }
@@ -98,7 +100,17 @@ void check_stop_bits(const ParameterReader& reader, const BusConfiguration& bus)
   reader.fail("bits_per_character", fmt::format("is {}; a serial port sends 10 (8N1) or 11 (8N2)", bits));
 }
 
+std::vector<std::uint32_t> values_of(const std::vector<std::pair<std::string, std::uint32_t>>& choices) {
+  std::vector<std::uint32_t> values;
+  for (const auto& [name, value] : choices) values.push_back(value);
+  return values;
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> serial_rates() { return values_of(kBauds); }
+
+std::vector<std::uint32_t> can_rates() { return values_of(kBitrates); }
 
 const DriveNumbers& drive_numbers(BusType type) {
   static const DriveNumbers nodes{"node_id", "a node id", "node ids", 127};

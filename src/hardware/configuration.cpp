@@ -46,6 +46,20 @@ motion::StreamParameters parse_setpoints(ParameterReader reader) {
   return stream;
 }
 
+/// Parameters as for a controller of ros_control stand under the controller's name.
+void refuse_nested(const ParameterReader& reader) {
+  if (reader.has("joints")) return;
+  for (const std::string& key : reader.keys()) {
+    const YAML::Node value = reader.node()[key];
+    if (!value.IsMap() || !value["joints"].IsDefined()) continue;
+    reader.fail("joints",
+                fmt::format("is missing, and there is {0}/joints: the configuration stands under the name "
+                            "{0}. Take that level away, or give the node that name and load the file "
+                            "beside it, not into it",
+                            key));
+  }
+}
+
 void mark_isochronous_buses(Configuration& configuration) {
   for (const DriveConfiguration& drive : configuration.drives) {
     if (!drive.kind->follows_host_time()) continue;
@@ -70,6 +84,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
                                   const std::vector<std::string>& node_keys, const DriveKinds& kinds) {
   ParameterReader reader(parameters, "");
   Configuration configuration;
+  refuse_nested(reader);
   configuration.joints = reader.names("joints");
   ParameterReader buses = reader.map("buses");
   for (const std::string& name : buses.keys())
@@ -87,6 +102,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
   c.start_tolerance = reader.number("start_tolerance", c.start_tolerance, 0.0, 10.0);
+  c.max_start_ahead = reader.number("max_start_ahead", c.max_start_ahead, 1.0, 1e6);
   c.commit_horizon = reader.number("commit_horizon", c.commit_horizon, 0.1, 60.0);
   c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);
   c.settle_timeout = reader.number("settle_timeout", c.settle_timeout, 0.0, 600.0);

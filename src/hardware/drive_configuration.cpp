@@ -1,6 +1,8 @@
 #include "interpolated_motion_driver/hardware/drive_configuration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,6 +19,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Without a limit of its own a joint may reach its velocity limit within this time.
 constexpr double kDefaultAccelerationTime = 0.1;
+/// A joint at its limit may read as much beyond it, in counts: rounding, and what a drive's demand may be off
+/// where it rests. The drives' own limits (0x607D) leave as much room.
+constexpr double kPositionSlackInCounts = 2.0;
 
 /// A limit of the configuration may tighten that of the URDF, never widen it.
 double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper) {
@@ -25,6 +30,22 @@ double tightened(ParameterReader& reader, const std::string& key, double urdf, b
   if (wider)
     reader.fail(key, fmt::format("is {}; the URDF allows {} and may only be tightened", value, urdf));
   return value;
+}
+
+/// Many URDFs say 0 where nobody has thought of a limit: there is none then.
+double parse_velocity_limit(ParameterReader& reader, double urdf) {
+  if (!reader.has("max_velocity") && urdf <= 0.0) {
+    reader.fail("max_velocity",
+                fmt::format("is missing, and the URDF says {}: it must be a finite number above 0. Give "
+                            "the joint a velocity limit in the URDF or here",
+                            urdf));
+  }
+  const double velocity = tightened(reader, "max_velocity", urdf > 0.0 ? urdf : kInfinity, true);
+  if (velocity > 0.0 && std::isfinite(velocity)) return velocity;
+  reader.fail("max_velocity",
+              fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "
+                          "the URDF or here",
+                          velocity));
 }
 
 trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader reader,
@@ -41,13 +62,7 @@ trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader r
   trajectory::JointLimits limits = found->second;
   limits.min_position = tightened(reader, "min_position", limits.min_position, false);
   limits.max_position = tightened(reader, "max_position", limits.max_position, true);
-  limits.max_velocity = tightened(reader, "max_velocity", limits.max_velocity, true);
-  if (!(limits.max_velocity > 0.0) || !std::isfinite(limits.max_velocity)) {
-    reader.fail("max_velocity",
-                fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "
-                            "the URDF or here",
-                            limits.max_velocity));
-  }
+  limits.max_velocity = parse_velocity_limit(reader, limits.max_velocity);
   if (limits.min_position > limits.max_position) {
     reader.fail("min_position",
                 fmt::format("is {}, above max_position {}", limits.min_position, limits.max_position));
@@ -74,12 +89,31 @@ const DriveKind* parse_kind(ParameterReader& reader, const DriveKinds& kinds) {
   return reader.choice("type", kinds.front(), choices);
 }
 
+void require_representable(const ParameterReader& reader, const std::string& key, double position,
+                           double counts) {
+  if (std::abs(counts) <= std::numeric_limits<std::int32_t>::max()) return;
+  reader.fail(key, fmt::format("is {}, which is {:.0f} counts of the encoder; a drive counts up to +-{}",
+                               position, counts, std::numeric_limits<std::int32_t>::max()));
+}
+
+/// Positions that the joint may have must have a number of counts.
+void check_reach(const ParameterReader& reader, const DriveConfiguration& drive) {
+  if (drive.limits.continuous) return;
+  for (const auto& [key, position] : {std::pair("limits/min_position", drive.limits.min_position),
+                                      std::pair("limits/max_position", drive.limits.max_position)}) {
+    if (std::isfinite(position))
+      require_representable(reader, key, position, drive.transmission.counts(position));
+  }
+}
+
 DriveEmulation parse_emulation(ParameterReader& reader, const encoding::Transmission& transmission) {
   using emulation::kLargestClockError;
   DriveEmulation emulation;
   emulation.missing = reader.boolean("missing", emulation.missing);
   const double position = reader.number("initial_position", 0.0, -1e6, 1e6);
-  emulation.initial_position = static_cast<std::int32_t>(std::lround(transmission.counts(position)));
+  const double counts = std::round(transmission.counts(position));
+  require_representable(reader, "initial_position", position, counts);
+  emulation.initial_position = static_cast<std::int32_t>(counts);
   emulation.clock_error_ppm = reader.number("clock_error_ppm", 0.0, -kLargestClockError, kLargestClockError);
   return emulation;
 }
@@ -98,14 +132,20 @@ DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader,
                                const DriveKinds& kinds) {
   DriveConfiguration drive;
   drive.joint = joint;
-  drive.bus = reader.required_text("bus");
+  drive.bus = reader.required_name("bus");
   drive.kind = parse_kind(reader, kinds);
   drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
+  drive.limits.position_slack = std::max(
+      drive.limits.position_slack, kPositionSlackInCounts / std::abs(drive.transmission.counts_per_radian()));
+  check_reach(reader, drive);
   drive.deviation_bound =
       reader.number("deviation_bound", drive.kind->default_deviation_bound(), 0.6, 1000.0);
   drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
+  drive.plan_margin =
+      reader.number("plan_margin", std::min(drive.plan_margin, drive.limit_margin), 1.0, drive.limit_margin);
+  drive.limits.rate_slack = drive.plan_margin - 1.0;
   const DriveNumbers& numbers = drive_numbers(drive.kind->bus_type());
   drive.number = static_cast<int>(reader.required_integer(numbers.key, 1, numbers.highest));
   parse_settings(reader, drive);

@@ -36,6 +36,7 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
     goal.push_back(known ? found->second.goal : 0.0);
   }
   parameters.rules.allow_partial_joints = configuration.allow_partial_joints_goal;
+  parameters.rules.max_start_ahead = GoalTime{configuration.max_start_ahead};
   parameters.tolerances = trajectory::default_tolerances(
       path, goal, configuration.constraints.stopped_velocity_tolerance, configuration.constraints.goal_time);
   parameters.settle_timeout = host_duration(configuration.settle_timeout);
@@ -71,6 +72,7 @@ class MotionHardware::Implementation {
   };
 
   void step(HostTime time);
+  void take_notes();
   void follow_group();
   void follow_stream();
   void begin_audit();
@@ -126,6 +128,7 @@ void MotionHardware::Implementation::step(HostTime time) {
     link->poll(now);
   }
   group->poll(now);
+  take_notes();
   follow_group();
   for (const auto& link : assembly.links()) link->send(now);
 }
@@ -134,6 +137,13 @@ HostTime MotionHardware::Implementation::next_deadline() const {
   HostTime next = group->next_deadline();
   for (const auto& link : assembly.links()) next = std::min(next, link->next_deadline());
   return next;
+}
+
+void MotionHardware::Implementation::take_notes() {
+  for (const auto& axis : assembly.axes()) {
+    while (auto note = axis->take_note())
+      log.add(note->is_problem ? Severity::Warning : Severity::Info, std::move(note->text));
+  }
 }
 
 void MotionHardware::Implementation::follow_group() {
@@ -325,6 +335,10 @@ void MotionHardware::set_sample_observer(SampleObserver observer) {
 
 std::optional<double> MotionHardware::emulated_position(std::size_t joint) const {
   return implementation_->assembly.emulated_position(joint);
+}
+
+std::optional<bool> MotionHardware::emulated_power(std::size_t joint) const {
+  return implementation_->assembly.emulated_power(joint);
 }
 
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,

@@ -3,6 +3,9 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "interpolated_motion_driver/units/closest_name.h"
 
 namespace interpolated_motion::hardware {
 
@@ -19,7 +22,11 @@ std::string shown(const YAML::Node& node) {
 ParameterReader::ParameterReader(const YAML::Node& node, std::string path)
     : node_(node), path_(std::move(path)) {
   if (!node_.IsDefined() || node_.IsNull() || node_.IsMap()) return;
-  throw std::invalid_argument(fmt::format("Parameter {} is {}; it must be a map.", path_, shown(node_)));
+  throw std::invalid_argument(
+      path_.empty() ? fmt::format("The configuration is {}; it must be a map with the keys joints, "
+                                  "buses and drives.",
+                                  shown(node_))
+                    : fmt::format("Parameter {} is {}; it must be a map.", path_, shown(node_)));
 }
 
 bool ParameterReader::has(const std::string& key) const { return node_.IsMap() && node_[key].IsDefined(); }
@@ -86,6 +93,12 @@ std::string ParameterReader::required_text(const std::string& key) {
   return value.Scalar();
 }
 
+std::string ParameterReader::required_name(const std::string& key) {
+  std::string name = required_text(key);
+  if (name.empty()) fail(key, "is empty; it must be a name");
+  return name;
+}
+
 std::string ParameterReader::text(const std::string& key, const std::string& fallback) {
   known_.insert(key);
   return has(key) ? required_text(key) : fallback;
@@ -99,6 +112,13 @@ std::vector<std::string> ParameterReader::names(const std::string& key) {
   std::set<std::string> seen;
   for (const auto& item : value) {
     if (!item.IsScalar() || item.Scalar().empty()) fail(key, "holds an entry that is not a name");
+    if (item.Scalar().find('/') != std::string::npos) {
+      fail(key,
+           fmt::format(
+               "names \"{}\"; a name must not have a slash, at which ROS takes parameters apart: rename it, "
+               "in the URDF too",
+               item.Scalar()));
+    }
     if (!seen.insert(item.Scalar()).second) fail(key, fmt::format("names \"{}\" twice", item.Scalar()));
     names.push_back(item.Scalar());
   }
@@ -118,11 +138,13 @@ std::vector<std::string> ParameterReader::keys() const {
 }
 
 void ParameterReader::refuse_unknown() const {
+  std::set<std::string> seen;
   for (const std::string& key : keys()) {
+    if (!seen.insert(key).second) fail(key, "is given twice; leave one of both out");
     if (known_.count(key) != 0) continue;
-    std::string allowed;
-    for (const std::string& name : known_) allowed += (allowed.empty() ? "" : ", ") + name;
-    fail(key, "is unknown; known here: " + allowed);
+    const std::string meant = closest_name(key, {known_.begin(), known_.end()});
+    const std::string question = meant.empty() ? "" : "did you mean " + meant + "? ";
+    fail(key, "is unknown; " + question + fmt::format("known here: {}", fmt::join(known_, ", ")));
   }
 }
 

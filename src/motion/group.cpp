@@ -24,8 +24,10 @@ bool is_settled(const axis::Axis& axis) {
 }
 
 /// Its power stage may be on.
-bool is_powered(const axis::Axis& axis) {
-  return axis.state() != AxisState::Disabled && !is_out_of_order(axis);
+bool is_powered(const axis::Axis& axis) { return axis.state() != AxisState::Disabled; }
+
+bool all_settled(const std::vector<axis::Axis*>& axes) {
+  return std::all_of(axes.begin(), axes.end(), [](const axis::Axis* axis) { return is_settled(*axis); });
 }
 
 bool holds_motion(AxisState state) {
@@ -80,11 +82,11 @@ void Group::poll(HostTime now) {
       if (faulted()) enter_fault();
       break;
     case GroupState::Fault:
-      if (disable_when_stopped_) poll_fault(now);
+      if (power_off_ != PowerOff::No) poll_fault(now);
       break;
   }
   // Who asked in a fault for the other drives to be switched off is answered when they are.
-  if (state_ != GroupState::Fault || !disable_when_stopped_) requests_.settle(state_, fault_);
+  if (state_ != GroupState::Fault || power_off_ == PowerOff::No) requests_.settle(state_, fault_);
 }
 
 HostTime Group::next_deadline() const {
@@ -97,8 +99,8 @@ HostTime Group::next_deadline() const {
 }
 
 void Group::poll_starting(HostTime now) {
-  if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
-  if (disable_when_stopped_) return enter(GroupState::Stopping);
+  if (!all_settled(axes_)) return;
+  if (power_off_ != PowerOff::No) return enter(GroupState::Stopping);
   if (faulted()) return enter_fault();
   enter_rest_state(now);
   if (enable_when_found_ && state_ == GroupState::Disabled) start_enabling(now);
@@ -137,10 +139,10 @@ void Group::poll_settling(HostTime now) {
 // Axes with a fault stop by their own reaction or are being stopped; the others have been told to. The group
 // is at rest when none moves any more.
 void Group::poll_stopping(HostTime now) {
-  if (!std::all_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_settled(*a); })) return;
+  if (!all_settled(axes_)) return;
   if (ending_) finish_goal(*std::exchange(ending_, std::nullopt));
-  if (disable_when_stopped_ && any(AxisState::Ready)) return start_disabling(now);
-  disable_when_stopped_ = false;
+  if (power_off_ == PowerOff::Wanted) return start_disabling(now);
+  power_off_ = PowerOff::No;
   if (faulted()) {
     fail_pending(faults());
     finish_stop_goals(GoalOutcome::Aborted, faults());
@@ -153,9 +155,9 @@ void Group::poll_stopping(HostTime now) {
 }
 
 void Group::poll_fault(HostTime now) {
-  if (any(AxisState::Ready)) start_disabling(now);
-  disable_when_stopped_ =
-      std::any_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_powered(*a); });
+  const bool settled = all_settled(axes_);
+  if (any(AxisState::Ready) || (settled && power_off_ == PowerOff::Wanted)) return start_disabling(now);
+  if (settled) power_off_ = PowerOff::No;
 }
 
 void Group::start_enabling(HostTime now) {
@@ -166,16 +168,20 @@ void Group::start_enabling(HostTime now) {
   enter(GroupState::Enabling);
 }
 
+// Drives in fault are told as well: what the host has found wrong need not have switched them off. They are
+// told once, when they have come to rest.
 void Group::start_disabling(HostTime now) {
+  const bool settled = all_settled(axes_);
   for (axis::Axis* axis : axes_) {
-    if (axis->state() == AxisState::Ready) axis->disable(now);
+    if (axis->state() == AxisState::Ready || (settled && is_out_of_order(*axis))) axis->disable(now);
   }
+  if (settled) power_off_ = PowerOff::Told;
   signal_all(now);
 }
 
 void Group::reset(HostTime now) {
   for (axis::Axis* axis : axes_) {
-    if (is_out_of_order(*axis)) axis->reset_fault(now);
+    if (is_faulted(*axis)) axis->reset_fault(now);
   }
   enter(GroupState::Starting);
 }
@@ -221,7 +227,7 @@ RequestId Group::request(RequestKind kind, HostTime now) {
     case RequestKind::Enable:
       if (in_motion()) requests_.finish(id, true, "all drives are enabled, and the group is moving");
       if (state_ == GroupState::Disabled) start_enabling(now);
-      if (state_ == GroupState::Starting && !disable_when_stopped_) enable_when_found_ = true;
+      if (state_ == GroupState::Starting && power_off_ == PowerOff::No) enable_when_found_ = true;
       break;
     case RequestKind::Disable:
       disable("stopped since the drives are to be disabled", now);
@@ -242,7 +248,7 @@ RequestId Group::request(RequestKind kind, HostTime now) {
       break;
   }
   // What is so already is said before the next order changes it.
-  if (!disable_when_stopped_) requests_.settle(state_, fault_);
+  if (power_off_ == PowerOff::No) requests_.settle(state_, fault_);
   return id;
 }
 
@@ -257,8 +263,9 @@ void Group::disable(const std::string& why, HostTime now) {
   halt(now, why);
   enable_when_found_ = false;
   if (std::none_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_powered(*a); })) return;
-  disable_when_stopped_ = true;
+  power_off_ = PowerOff::Wanted;
   if (state_ == GroupState::Idle) start_disabling(now);
+  if (state_ == GroupState::Fault) poll_fault(now);
   if (state_ != GroupState::Starting && state_ != GroupState::Fault) enter(GroupState::Stopping);
 }
 

@@ -27,6 +27,7 @@ Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, Ho
     return *refusal;
   if (auto refusal = refuse_now()) return *refusal;
   if (trajectory::is_stop_request(goal)) return accept_stop(now);
+  if (auto refusal = trajectory::validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   if (state_ != GroupState::Idle) return replace_running(goal, now);
   auto planned = plan(goal, now);
   if (!planned) return planned.error();
@@ -51,7 +52,7 @@ std::optional<Refusal> Group::refuse_now() const {
     default:
       break;
   }
-  if (disable_when_stopped_) return Refusal{GoalError::InvalidGoal, "The drives are being disabled."};
+  if (power_off_ != PowerOff::No) return Refusal{GoalError::InvalidGoal, "The drives are being disabled."};
   return std::nullopt;
 }
 

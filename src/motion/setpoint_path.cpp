@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/trajectory/goal_validation.h"
+#include "interpolated_motion_driver/units/time_span.h"
+
 namespace interpolated_motion::motion {
 
 namespace {
@@ -18,12 +21,13 @@ constexpr double kPause = 0.25;  // s
 Refusal refuse(std::string text) { return {GoalError::InvalidGoal, std::move(text)}; }
 
 /// `values` of the joints of the setpoint: positions or velocities, as `what` says.
-std::optional<Refusal> check_finite(const Setpoint& setpoint, const char* what,
+std::optional<Refusal> check_values(const Setpoint& setpoint, const char* what,
                                     const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i])) continue;
-    return refuse(fmt::format("The {} of joint \"{}\" in the setpoint is {}, allowed are finite numbers.",
-                              what, setpoint.joint_names[i], values[i]));
+    if (std::abs(values[i]) <= trajectory::kLargestValue) continue;
+    return refuse(
+        fmt::format("The {} of joint \"{}\" in the setpoint is {}, allowed are finite numbers up to +-{:g}.",
+                    what, setpoint.joint_names[i], values[i], trajectory::kLargestValue));
   }
   return std::nullopt;
 }
@@ -120,16 +124,16 @@ std::optional<Refusal> SetpointPath::check_joints(const Setpoint& setpoint) cons
     return refuse(fmt::format("The setpoint has {} positions and {} velocities for {} joints.",
                               setpoint.positions.size(), setpoint.velocities.size(), joints));
   }
-  if (auto refusal = check_finite(setpoint, "position", setpoint.positions)) return refusal;
-  return check_finite(setpoint, "velocity", setpoint.velocities);
+  if (auto refusal = check_values(setpoint, "position", setpoint.positions)) return refusal;
+  return check_values(setpoint, "velocity", setpoint.velocities);
 }
 
 std::optional<Refusal> SetpointPath::check_time(const Setpoint& setpoint, HostTime now) const {
   if (newest_ && setpoint.time <= *newest_) {
     return refuse(fmt::format("The setpoint is out of order: it is {:.3f} s older than the one before.",
-                              seconds(*newest_ - setpoint.time)));
+                              seconds(span(setpoint.time, *newest_))));
   }
-  const double age = seconds(now - setpoint.time);
+  const double age = seconds(span(setpoint.time, now));
   if (age > parameters_.max_age.count()) {
     return refuse(fmt::format("The setpoint is of the past: {:.3f} s old, at most {:.3f} s are allowed.", age,
                               parameters_.max_age.count()));

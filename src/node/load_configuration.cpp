@@ -25,6 +25,12 @@ RobotDescription find_robot_description(const ros::NodeHandle& private_node, con
   RobotDescription description;
   if (private_node.searchParam("robot_description", key) && private_node.getParam(key, description.urdf)) {
     description.source = "the URDF in parameter " + key;
+    if (!file.empty()) {
+      ROS_WARN_STREAM("robot_description_file ("
+                      << file << ") is not read, since there is a parameter " << key
+                      << ", which may be left from an earlier launch; `rosparam delete " << key
+                      << "` removes it");
+    }
     return description;
   }
   if (!file.empty()) return read_robot_description_file(file);

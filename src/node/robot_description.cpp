@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/node/robot_description.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -28,11 +29,26 @@ void refuse_undrivable(const urdf::Joint& joint, const std::string& source) {
                   joint.name, joint.type == urdf::Joint::FIXED ? "fixed" : "floating or planar", source));
 }
 
+/// The soft limits of <safety_controller>, where a robot has some: both are 0 where it has not.
+void tighten_by_soft_limits(const urdf::Joint& joint, trajectory::JointLimits& limits) {
+  if (!joint.safety || !(joint.safety->soft_lower_limit < joint.safety->soft_upper_limit)) return;
+  limits.min_position = std::max(limits.min_position, joint.safety->soft_lower_limit);
+  limits.max_position = std::min(limits.max_position, joint.safety->soft_upper_limit);
+}
+
+/// What is left of a xacro file that nobody has expanded, if anything.
+std::string xacro_of(const std::string& text) {
+  for (const char* sign : {"<xacro:", "${", "$(arg ", "$(find "}) {
+    if (text.find(sign) != std::string::npos) return sign;
+  }
+  return {};
+}
+
 trajectory::JointLimits limits_of(const urdf::Joint& joint, const std::string& source) {
   trajectory::JointLimits limits;
   limits.continuous = joint.type == urdf::Joint::CONTINUOUS;
   if (!joint.limits) return limits;
-  if (!(joint.limits->velocity > 0.0)) {
+  if (!(joint.limits->velocity >= 0.0)) {
     throw std::invalid_argument(fmt::format("Joint {} has the velocity limit {:g} in {}; it must be above 0.",
                                             joint.name, joint.limits->velocity, source));
   }
@@ -45,6 +61,7 @@ trajectory::JointLimits limits_of(const urdf::Joint& joint, const std::string& s
   }
   limits.min_position = joint.limits->lower;
   limits.max_position = joint.limits->upper;
+  tighten_by_soft_limits(joint, limits);
   return limits;
 }
 
@@ -66,6 +83,12 @@ std::string resolve(const std::string& path) {
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr parse_urdf(const RobotDescription& description) {
+  if (const std::string xacro = xacro_of(description.urdf); !xacro.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "{} is xacro (it has \"{}\"), not URDF; run xacro first: `rosrun xacro xacro FILE > robot.urdf`, or "
+        "<param name=\"robot_description\" command=\"xacro FILE\"/> in the launch file.",
+        description.source, xacro));
+  }
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(description.urdf);
   if (!model) {
     throw std::invalid_argument(fmt::format(

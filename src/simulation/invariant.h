@@ -25,6 +25,7 @@ struct Look {
   HostTime now{};
   const motion::Snapshot* snapshot = nullptr;      ///< as published
   const std::vector<double>* positions = nullptr;  ///< rad, where the emulated drives really are
+  const std::vector<bool>* powers = nullptr;       ///< whether the motors of the emulated drives have power
   bool is_host_there = true;                     ///< false: nothing is published, `snapshot` is what was last
   std::size_t log_lines = 0;                     ///< since the last look
   const motion::MotionReport* report = nullptr;  ///< only where a goal has ended since the last look

@@ -4,6 +4,7 @@
 #include "simulation/invariants/braking.h"
 #include "simulation/invariants/fault_holds.h"
 #include "simulation/invariants/limits.h"
+#include "simulation/invariants/off_is_off.h"
 #include "simulation/invariants/on_course.h"
 #include "simulation/invariants/orders_end_once.h"
 #include "simulation/invariants/published_is_true.h"
@@ -24,8 +25,8 @@ std::vector<std::unique_ptr<Invariant>> make(const Ledger& ledger) {
 }  // namespace
 
 std::vector<std::unique_ptr<Invariant>> all_invariants(const Ledger& ledger) {
-  return make<Limits, Braking, StillWithoutOrder, FaultHolds, StopsTogether, OrdersEndOnce, RefusedAtOnce,
-              AcceptedIsHeld, OnCourse, PublishedIsTrue, DesiredIsSmooth, Bounded>(ledger);
+  return make<Limits, Braking, StillWithoutOrder, FaultHolds, OffIsOff, StopsTogether, OrdersEndOnce,
+              RefusedAtOnce, AcceptedIsHeld, OnCourse, PublishedIsTrue, DesiredIsSmooth, Bounded>(ledger);
 }
 
 bool is_at_rest(motion::GroupState state) {

@@ -67,7 +67,8 @@ Simulation::Simulation(const Script& script, Trace::Listener listener)
       invariants_(all_invariants(ledger_)),
       trace_(std::move(listener)),
       driver_(std::make_unique<hardware::MotionHardware>(parse(script.configuration), now_)),
-      positions_(ledger_.arm().joints.size()) {
+      positions_(ledger_.arm().joints.size()),
+      powers_(ledger_.arm().joints.size()) {
   driver_->set_motion_observer([this](std::size_t joint, const hardware::DemandSample& sample) {
     if (sample.interpolating) take_sample(joint, sample);
   });
@@ -251,6 +252,7 @@ void Simulation::look() {
   seen.now = now_;
   seen.snapshot = &snapshot_;
   seen.positions = &positions_;
+  seen.powers = &powers_;
   seen.is_host_there = host_is_there_;
   seen.log_lines = std::exchange(log_lines_, 0);
   seen.report = report_ ? &*report_ : nullptr;
@@ -314,6 +316,7 @@ void Simulation::take_sample(std::size_t joint, const hardware::DemandSample& sa
 void Simulation::take_positions() {
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     positions_[i] = driver_->emulated_position(i).value_or(0.0);
+    powers_[i] = driver_->emulated_power(i).value_or(false);
     trace_.add(positions_[i]);
   }
 }

@@ -81,6 +81,7 @@ class Simulation {
   std::deque<SentSetpoint> setpoints_;
   motion::Snapshot snapshot_;
   std::vector<double> positions_;
+  std::vector<bool> powers_;
   std::size_t log_lines_ = 0;
   std::optional<motion::MotionReport> report_;  ///< when a goal has ended since the last look
   Outcome outcome_;

@@ -28,8 +28,11 @@ std::vector<double> read_numbers(const YAML::Node& point, const std::string& key
 
 ros::Duration read_duration(const YAML::Node& node, const std::string& what) {
   if (!node || !node.IsMap()) return ros::Duration(read<double>(node, what));
-  return {read<std::int32_t>(node["secs"], what + ": secs"),
-          read<std::int32_t>(node["nsecs"], what + ": nsecs")};
+  const bool is_ros2 = node["sec"].IsDefined();
+  const char* secs = is_ros2 ? "sec" : "secs";
+  const char* nsecs = is_ros2 ? "nanosec" : "nsecs";
+  return {read<std::int32_t>(node[secs], what + ": " + secs),
+          read<std::int32_t>(node[nsecs], what + ": " + nsecs)};
 }
 
 trajectory_msgs::JointTrajectoryPoint read_point(const YAML::Node& node, const std::string& where) {
@@ -43,8 +46,36 @@ trajectory_msgs::JointTrajectoryPoint read_point(const YAML::Node& node, const s
   return point;
 }
 
-trajectory_msgs::JointTrajectory read_trajectory(const YAML::Node& node) {
+std::string keys_of(const YAML::Node& map) {
+  std::string keys;
+  for (const auto& entry : map) keys += (keys.empty() ? "" : ", ") + entry.first.Scalar();
+  return keys;
+}
+
+/// The trajectory in what `rostopic echo` prints of messages that have one: goals of the action, with their
+/// header or without, moveit_msgs' RobotTrajectory and DisplayTrajectory.
+YAML::Node trajectory_within(YAML::Node node) {
+  while (node.IsMap() && !node["joint_names"].IsDefined()) {
+    YAML::Node within(YAML::NodeType::Undefined);
+    const YAML::Node outer = node;
+    for (const char* key : {"goal", "trajectory", "joint_trajectory"}) {
+      if (outer[key].IsDefined()) within.reset(outer[key]);
+    }
+    if (!within.IsDefined()) {
+      throw std::runtime_error(
+          "joint_names is missing; there are " + keys_of(node) +
+          ". A trajectory_msgs/JointTrajectory is wanted, alone or within an action's goal, a "
+          "FollowJointTrajectoryGoal or a RobotTrajectory");
+    }
+    if (within.IsSequence() && within.size() == 1) within.reset(within[0]);
+    node.reset(within);
+  }
   if (!node.IsMap()) throw std::runtime_error("it is no map with joint_names and points");
+  return node;
+}
+
+trajectory_msgs::JointTrajectory read_trajectory(const YAML::Node& content) {
+  const YAML::Node node = trajectory_within(content);
   trajectory_msgs::JointTrajectory trajectory;
   trajectory.joint_names = read<std::vector<std::string>>(node["joint_names"], "joint_names");
   const YAML::Node points = node["points"];

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstddef>
 
-#include "interpolated_motion_driver/trajectory/roots.h"
-
 namespace interpolated_motion::trajectory {
 
 namespace {
@@ -43,6 +41,13 @@ Range range_of(const Value& value, const Roots<Degree>& turns, double from, doub
 }
 
 }  // namespace
+
+Roots<4> position_turns(const Polynomial& polynomial, double from, double to) {
+  Roots<4> turns;
+  for (const double turn : sign_changes<4>(derivative<5>(on_unit_interval(polynomial, from, to - from))))
+    turns.add(from + turn * (to - from));
+  return turns;
+}
 
 Range position_range(const Polynomial& polynomial, double from, double to) {
   const auto velocity = derivative<5>(on_unit_interval(polynomial, from, to - from));

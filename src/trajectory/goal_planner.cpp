@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -120,11 +121,27 @@ class PathMaker {
     return Path(std::move(pieces));
   }
 
+  bool stops_at_every_point() const {
+    const auto stops = [this](std::size_t index) {
+      const std::vector<double>& velocities = goal_.points[index].velocities;
+      return !velocities.empty() && std::all_of(velocities.begin(), velocities.end(),
+                                                [](double v) { return std::abs(v) <= kRestVelocity; });
+    };
+    const bool has_inner_points = selection_.points.size() + (start_.bridge ? 1 : 0) > 2;
+    return has_inner_points && std::all_of(selection_.points.begin(), selection_.points.end(), stops);
+  }
+
   Refusal refuse(std::size_t joint, LimitViolation violation) const {
     const std::size_t first = selection_.points.front();
     const bool on_bridge = start_.bridge && violation.time < time_of(first);
     violation.time += selection_.skipped;
     Refusal refusal = limit_refusal(rules_.joints[joint], violation);
+    if (stops_at_every_point()) {
+      refusal.text +=
+          " Every point has velocity 0, so the trajectory stops at each of them and sets out again: leave "
+          "the velocities "
+          "out, and a smooth path is made through the points, or give those that the motion has there.";
+    }
     if (on_bridge) {
       refusal.text += fmt::format(
           " This is on the way from rest at the present position {:.6g} to points[{}], for which "
@@ -148,6 +165,7 @@ Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRule
   if (auto refusal = validate_goal(goal, rules.joints, rules.allow_partial_joints)) return *refusal;
   if (is_stop_request(goal))
     return Refusal{GoalError::InvalidGoal, "The goal has no points: it is a request to stop."};
+  if (auto refusal = validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   const auto columns = joint_columns(goal.joint_names, rules.joints, rules.allow_partial_joints);
   if (!columns) return columns.error();
   const auto future = drop_past_points(goal, now);

@@ -16,6 +16,14 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586476925;
 
+/// Turns (a whole number) that bring a point nearest to a joint that is `distance` rad beyond it. At half a
+/// turn either way is as near; then the fewer turns: the joint goes the way that the numbers of the goal say.
+double nearest_turns(double distance) {
+  const double fewer = std::trunc(distance / kTurn);
+  const double rest = distance - fewer * kTurn;
+  return std::abs(rest) <= 0.5 * kTurn + kHalfTurnTolerance ? fewer : fewer + std::copysign(1.0, rest);
+}
+
 /// The first point against the present positions.
 class StartPoint {
  public:
@@ -28,7 +36,7 @@ class StartPoint {
     for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
       if (!named(joint) || !rules_.limits[joint].continuous) continue;
       const double distance = present_[joint].position - point_.positions[columns_[joint]];
-      result[joint] = kTurn * std::round(distance / kTurn);
+      result[joint] = kTurn * nearest_turns(distance);
     }
     return result;
   }

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "interpolated_motion_driver/units/time_span.h"
+
 namespace interpolated_motion::trajectory {
 
 namespace {
@@ -101,22 +103,22 @@ Verdict check_tolerances(const std::vector<JointTolerance>& tolerances, const ch
                                         what, tolerance.joint, list(joints)));
     }
     for (const double value : {tolerance.position, tolerance.velocity, tolerance.acceleration}) {
-      if (std::isfinite(value)) continue;
-      return invalid_goal(
-          fmt::format("{} of joint '{}' is {}, allowed are finite numbers: positive to set it, 0 to keep "
-                      "the default, negative to erase it.",
-                      what, tolerance.joint, value));
+      if (value <= kLargestTolerance && std::isfinite(value)) continue;
+      return invalid_goal(fmt::format(
+          "{} of joint '{}' is {}, allowed are finite numbers up to {:g}: positive to set it, 0 to "
+          "keep the default, negative to erase it.",
+          what, tolerance.joint, value, kLargestTolerance));
     }
   }
   return std::nullopt;
 }
 
 Verdict check_goal_time(double tolerance) {
-  if (std::isfinite(tolerance)) return std::nullopt;
-  return invalid_goal(
-      fmt::format("goal_time_tolerance is {} s, allowed are finite numbers: positive to set it, 0 to keep "
-                  "the default, negative to erase it.",
-                  tolerance));
+  if (tolerance <= kLargestTolerance && std::isfinite(tolerance)) return std::nullopt;
+  return invalid_goal(fmt::format(
+      "goal_time_tolerance is {} s, allowed are finite numbers up to {:g} s: positive to set it, 0 "
+      "to keep the default, negative to erase it.",
+      tolerance, kLargestTolerance));
 }
 
 Verdict check_complete(const std::vector<std::size_t>& columns, const std::vector<std::string>& joints) {
@@ -155,6 +157,17 @@ std::optional<Refusal> validate_goal(const Goal& goal, const std::vector<std::st
   if (auto v = check_tolerances(goal.path_tolerance, "path_tolerance", joints)) return v;
   if (auto v = check_tolerances(goal.goal_tolerance, "goal_tolerance", joints)) return v;
   return check_goal_time(goal.goal_time_tolerance);
+}
+
+std::optional<Refusal> validate_stamp(const Goal& goal, GoalTime max_ahead, HostTime now) {
+  if (!goal.start) return std::nullopt;
+  const double ahead = seconds(span(now, *goal.start));
+  if (ahead <= max_ahead.count()) return std::nullopt;
+  return invalid_goal(
+      fmt::format("The stamp of the goal is {:.10g} s ahead, allowed is at most {:g} s ahead (parameter "
+                  "max_start_ahead). Send it later, or with stamp 0 to start at once; if the stamp was to be "
+                  "about now, synchronise the clocks.",
+                  ahead, max_ahead.count()));
 }
 
 }  // namespace interpolated_motion::trajectory

@@ -8,20 +8,19 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/trajectory/extrema.h"
+#include "interpolated_motion_driver/trajectory/position_bounds.h"
 
 namespace interpolated_motion::trajectory {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The limits with their slack.
 struct Bounds {
-  explicit Bounds(const JointLimits& limits)
-      : lower(limits.continuous ? -kInfinity : limits.min_position - kPositionSlack),
-        upper(limits.continuous ? kInfinity : limits.max_position + kPositionSlack),
-        velocity(limits.max_velocity * (1.0 + kRateSlack)),
-        acceleration(limits.max_acceleration * (1.0 + kRateSlack)) {}
+  Bounds(const JointLimits& limits, const PositionBounds& positions)
+      : lower(positions.lower()),
+        upper(positions.upper()),
+        velocity(limits.max_velocity * (1.0 + limits.rate_slack)),
+        acceleration(limits.max_acceleration * (1.0 + limits.rate_slack)) {}
 
   double lower;
   double upper;
@@ -86,8 +85,14 @@ std::optional<LimitViolation> violation(Quantity quantity, const Piece& piece, c
   if (within(range.minimum.value, lower, upper) && within(range.maximum.value, lower, upper))
     return std::nullopt;
   const Extremum extremum = worst(range, lower, upper);
-  return LimitViolation{quantity, piece.start + GoalTime(extremum.time), extremum.value,
-                        allowed.minimum.value, allowed.maximum.value};
+  const bool at_knot = extremum.time == 0.0 || extremum.time == piece.duration().count();
+  return LimitViolation{quantity,
+                        piece.start + GoalTime(extremum.time),
+                        extremum.value,
+                        allowed.minimum.value,
+                        allowed.maximum.value,
+                        at_knot,
+                        std::nullopt};
 }
 
 Range symmetric(double limit) { return {{0.0, -limit}, {0.0, limit}}; }
@@ -109,15 +114,50 @@ std::optional<LimitViolation> exact_violation(const Piece& piece, const JointLim
                    bounds.acceleration, symmetric(limits.max_acceleration));
 }
 
+LimitViolation way_in_violation(const Piece& piece, const Extremum& farther, double start,
+                                const JointLimits& limits) {
+  const bool at_knot = farther.time == piece.duration().count();
+  const GoalTime time = piece.start + GoalTime(farther.time);
+  return {Quantity::Position, time, farther.value, limits.min_position, limits.max_position, at_knot, start};
+}
+
 /// By how much the time has to be stretched to bring a velocity or an acceleration back to its limit.
 double stretch(const LimitViolation& violation) {
   const double ratio = std::abs(violation.value) / violation.maximum;
   return violation.quantity == Quantity::Velocity ? ratio : std::sqrt(ratio);
 }
 
+/// Beyond its limit by no more than this part, a velocity or an acceleration may have come there by rounding.
+constexpr double kLittle = 0.05;
+
+/// Where a velocity or an acceleration beyond its limit comes from.
+std::string cause(const LimitViolation& violation) {
+  const double excess = std::abs(violation.value) / violation.maximum - 1.0;
+  if (excess <= kLittle) {
+    return fmt::format(
+        "It is {:.2g} % more, as rounding of the points makes it where the planner has the same limits: give "
+        "the "
+        "planner {:.2f} of them, or raise plan_margin of the joint. ",
+        100.0 * excess, std::floor(100.0 / (1.0 + excess)) / 100.0);
+  }
+  if (violation.at_knot)
+    return "A point asks for it itself: the planner's limits are wider than the joint's. ";
+  return "The curve between two points does: give accelerations with the points, or more points. ";
+}
+
 std::string advice(const LimitViolation& violation) {
-  if (violation.quantity == Quantity::Position) return "Plan within the joint's limits, or correct them.";
-  return fmt::format("Slow the trajectory down by a factor of {:.4g} or more, or correct the joint's limits.",
+  if (violation.begins_outside) {
+    return fmt::format(
+        "The joint stands outside, at {:.7g}: from there only the way in is allowed, and not out again.",
+        *violation.begins_outside);
+  }
+  if (violation.quantity == Quantity::Position) {
+    const char* where =
+        violation.at_knot ? "A point is outside. " : "The curve between two points is outside. ";
+    return std::string(where) + "Plan within the joint's limits, or correct them.";
+  }
+  return cause(violation) +
+         fmt::format("Slow the trajectory down by a factor of {:.4g} or more, or correct the joint's limits.",
                      std::ceil(1000.0 * stretch(violation)) / 1000.0);
 }
 
@@ -136,12 +176,26 @@ const char* name(Quantity quantity) {
 }
 
 std::optional<LimitViolation> find_limit_violation(const Path& path, const JointLimits& limits) {
-  const Bounds bounds(limits);
+  if (path.pieces().empty()) return std::nullopt;
+  const double start = path.pieces().front().polynomial.position(0.0);
+  PositionBounds positions(limits, start);
   for (const Piece& piece : path.pieces()) {
+    const Bounds bounds(limits, positions);
+    if (positions.outside()) {
+      if (const auto farther = positions.follow(piece))
+        return way_in_violation(piece, *farther, start, limits);
+    }
     if (surely_within(piece.polynomial, piece.duration().count(), bounds)) continue;
     if (const auto found = exact_violation(piece, limits, bounds)) return found;
   }
   return std::nullopt;
+}
+
+std::optional<LimitViolation> find_position_violation(const Path& path, const JointLimits& limits) {
+  JointLimits positions = limits;
+  positions.max_velocity = std::numeric_limits<double>::infinity();
+  positions.max_acceleration = std::numeric_limits<double>::infinity();
+  return find_limit_violation(path, positions);
 }
 
 Refusal limit_refusal(const std::string& joint, const LimitViolation& violation) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/trajectory/goal_rules.h"
+#include "interpolated_motion_driver/units/time_span.h"
 
 namespace interpolated_motion::trajectory {
 
@@ -63,7 +64,7 @@ Refusal all_points_past(std::size_t count, GoalTime late, const std::string& sen
 Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now) {
   FuturePoints kept;
   if (!goal.start || *goal.start >= now) return kept;
-  kept.skipped = GoalTime(seconds(now - *goal.start));
+  kept.skipped = GoalTime(seconds(span(*goal.start, now)));
   const auto in_past = [&](const Waypoint& point) { return point.time <= kept.skipped; };
   const auto first = std::partition_point(goal.points.begin(), goal.points.end(), in_past);
   if (first == goal.points.end()) {

@@ -18,14 +18,6 @@ constexpr GoalTime kShortestPiece{0.002};
 constexpr GoalTime kFirstDelay{0.005};
 constexpr double kNextDelay = 1.3;
 
-std::optional<LimitViolation> leaves_positions(const Path& path, const JointLimits& limits) {
-  JointLimits positions;
-  positions.min_position = limits.min_position;
-  positions.max_position = limits.max_position;
-  positions.continuous = limits.continuous;
-  return find_limit_violation(path, positions);
-}
-
 Path then(std::vector<Piece> pieces, const Path& rest) {
   pieces.insert(pieces.end(), rest.pieces().begin(), rest.pieces().end());
   return pieces.empty() ? rest : Path(std::move(pieces));
@@ -39,12 +31,12 @@ Expected<Path, LimitViolation> tail(const State& at, GoalTime start, const Strea
   if (end > start) {
     const Piece straight{start, end, Polynomial{{at.position, at.velocity, 0.0, 0.0, 0.0, 0.0}}};
     Path on = then({straight}, stop_path(further, end, rules.limits));
-    if (!leaves_positions(on, rules.limits)) return on;
+    if (!find_position_violation(on, rules.limits)) return on;
   }
   Path smooth = stop_path(at, start, rules.limits);
-  if (!leaves_positions(smooth, rules.limits)) return smooth;
+  if (!find_position_violation(smooth, rules.limits)) return smooth;
   Path shortest = shortest_stop_path(at, start, rules.limits);
-  if (const auto violation = leaves_positions(shortest, rules.limits)) return *violation;
+  if (const auto violation = find_position_violation(shortest, rules.limits)) return *violation;
   return shortest;
 }
 

@@ -48,6 +48,15 @@ TEST_F(InputFile, WhyItCannotBeReadIsSaid) {
   EXPECT_EQ(refusal("/"), "/ cannot be read: Is a directory");
 }
 
+TEST_F(InputFile, AKeyGivenTwiceIsSaid) {
+  write("a: 1\nb:\n  - c: 1\n    d: 2\n    c: 3\n");
+  EXPECT_EQ(refusal(path_), path_ + ":5:5: key \"c\" is given twice; leave one of both out");
+  write("a: 1\nb: {c: 1}\na: {c: 1}\n");
+  EXPECT_EQ(refusal(path_), path_ + ":3:1: key \"a\" is given twice; leave one of both out");
+  write("b: [{c: 1}, {c: 1}]\n");
+  EXPECT_EQ(refusal(path_), "read");
+}
+
 TEST_F(InputFile, WhereItIsNoYamlIsSaid) {
   write("a: 1\nb: [1, 2\nc: 3\n");
   const std::string words = refusal(path_);

@@ -1,11 +1,10 @@
 #include "interpolated_motion_driver/command_line/option_set.h"
+#include "interpolated_motion_driver/units/closest_name.h"
 
 #include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-
-#include "interpolated_motion_driver/command_line/closest_name.h"
 
 namespace interpolated_motion::command_line {
 namespace {

@@ -47,6 +47,20 @@ const BadGoal kBadGoals[] = {
        g.path_tolerance = {{"joint1", kNan, 0, 0}};
      },
      GoalError::InvalidGoal, "joint1"},
+    {"HugePathTolerance",
+     [](auto& g) {
+       g.path_tolerance = {{"joint2", 0, 1e300, 0}};
+     },
+     GoalError::InvalidGoal, "joint 'joint2' is 1e+300"},
+    {"HugeGoalTolerance",
+     [](auto& g) {
+       g.goal_tolerance = {{"joint1", 1e300, 0, 0}};
+     },
+     GoalError::InvalidGoal, "joint 'joint1' is 1e+300"},
+    {"HugeGoalTime", [](auto& g) { g.goal_time_tolerance = 1e300; }, GoalError::InvalidGoal,
+     "goal_time_tolerance is 1e+300 s"},
+    {"GoalTimeBeyondThatOfTheParameter", [](auto& g) { g.goal_time_tolerance = 1.1e6; },
+     GoalError::InvalidGoal, "goal_time_tolerance is 1100000 s"},
     {"UnknownJoint", [](auto& g) { g.joint_names[1] = "elbow"; }, GoalError::InvalidJoints, "elbow"},
     {"DuplicateJoint", [](auto& g) { g.joint_names[1] = "joint1"; }, GoalError::InvalidJoints, "joint1"},
     {"MissingJoint",
@@ -71,6 +85,12 @@ const BadGoal kBadGoals[] = {
     {"NegativeTime", [](auto& g) { g.points[0].time = GoalTime{-1.0}; }, GoalError::InvalidGoal, "points[0]"},
     {"PastStamp", [](auto& g) { g.start = HostTime{} - std::chrono::seconds(100); }, GoalError::InvalidGoal,
      "Dropping all 3 trajectory point(s), as they occur before the current time."},
+    {"StampAtTheBeginOfTime", [](auto& g) { g.start = HostTime::min(); }, GoalError::InvalidGoal,
+     "Last point is 92233720"},
+    {"StampAtTheEndOfTime", [](auto& g) { g.start = HostTime::max(); }, GoalError::InvalidGoal,
+     "max_start_ahead"},
+    {"StampThirtyYearsAhead", [](auto& g) { g.start = HostTime{} + std::chrono::hours(30 * 8766); },
+     GoalError::InvalidGoal, "at most 3600 s ahead"},
     {"StartTooFar", [](auto& g) { g.points[0].positions[1] = 0.3; }, GoalError::InvalidGoal, "joint2"},
     {"PositionBetweenKnots",
      [](auto& g) {

@@ -1,4 +1,6 @@
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,28 @@ struct BadConfiguration {
 
 const BadConfiguration kBad[] = {
     {"UnknownKey", "{commit_horizont: 2.0}", {"commit_horizont", "unknown", "commit_horizon"}},
+    {"MisspelledKey", "{commit_horizn: 2.0}", {"commit_horizn", "did you mean commit_horizon?"}},
+    {"MisspelledKeyOfADrive",
+     "{drives: {joint1: {gear_rato: 3}}}",
+     {"drives/joint1/gear_rato", "did you mean gear_ratio?"}},
+    {"SlashInAName", "{joints: [joint1, arm/joint2]}", {"joints", "\"arm/joint2\"", "slash"}},
+    {"EmptyBus", "{drives: {joint1: {bus: ''}}}", {"drives/joint1/bus", "empty"}},
+    {"EmptyInterface",
+     "{buses: {can0: {transport: socketcan, interface: ''}}}",
+     {"buses/can0/interface", "empty"}},
+    {"EmptyDevice",
+     "{buses: {line0: {type: silverlode, transport: serial, device: ''}}}",
+     {"buses/line0/device", "empty"}},
+    {"PositionBeyondTheCounter",
+     "{drives: {joint1: {emulation: {initial_position: 100000}}}}",
+     {"drives/joint1/emulation/initial_position", "100000", "3183098862 counts", "2147483647"}},
+    {"LimitBeyondTheCounter",
+     "{drives: {joint1: {gear_ratio: 1000000, counts_per_revolution: 100000000}}}",
+     {"drives/joint1/limits/min_position", "-3.1", "counts", "2147483647"}},
+    {"PlanMarginBeyondThatOfTheDrive",
+     "{drives: {joint1: {limit_margin: 1.1, plan_margin: 1.2}}}",
+     {"drives/joint1/plan_margin", "1.2", "1..1.1"}},
+    {"StartTooFarAhead", "{max_start_ahead: 0.5}", {"max_start_ahead", "0.5", "1..1000000"}},
     {"UnknownKeyOfADrive", "{drives: {joint1: {gear: 3}}}", {"drives/joint1/gear", "gear_ratio"}},
     {"WrongType", "{commit_horizon: soon}", {"commit_horizon", "\"soon\"", "number", "0.1..60"}},
     {"OutOfRange", "{commit_horizon: 0.001}", {"commit_horizon", "0.001", "0.1..60"}},
@@ -146,6 +170,50 @@ TEST(Configuration, TimeStampsComeAboutEachTenMilliseconds) {
 TEST(Configuration, KeysOfTheNodeAreItsOwnBusiness) {
   EXPECT_NO_THROW(hardware::parse_configuration(arm_of(2, "{state_publish_rate: 50}"), six_axis_urdf(),
                                                 {"state_publish_rate"}));
+}
+
+std::string refusal_of(const YAML::Node& parameters,
+                       const std::map<std::string, trajectory::JointLimits>& urdf = six_axis_urdf()) {
+  try {
+    hardware::parse_configuration(parameters, urdf);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(Configuration, UnderTheNameOfAControllerIsToldAsThat) {
+  YAML::Node parameters;
+  parameters["arm_controller"] = six_axis();
+  const std::string text = refusal_of(parameters);
+  EXPECT_NE(text.find("Parameter joints is missing, and there is arm_controller/joints"), std::string::npos)
+      << text;
+}
+
+TEST(Configuration, ThatIsNoMapIsToldAsThat) {
+  EXPECT_EQ(refusal_of(YAML::Load("[joint1, joint2]")),
+            "The configuration is a list; it must be a map with the keys joints, buses and drives.");
+}
+
+TEST(Configuration, WithAKeyTwiceIsRefused) {
+  YAML::Node parameters = arm_of(1);
+  parameters["setpoints"] = YAML::Load("{delay: 0.1, delay: 0.2}");
+  EXPECT_EQ(refusal_of(parameters), "Parameter setpoints/delay is given twice; leave one of both out.");
+}
+
+// A URDF in which nobody has thought of the velocity.
+TEST(Configuration, GivesAJointTheVelocityLimitThatTheUrdfLacks) {
+  auto urdf = six_axis_urdf();
+  urdf["joint1"].max_velocity = 0.0;
+  const std::string text = refusal_of(arm_of(1), urdf);
+  EXPECT_NE(text.find("drives/joint1/limits/max_velocity is missing, and the URDF says 0"), std::string::npos)
+      << text;
+  const auto given =
+      hardware::parse_configuration(arm_of(1, "{drives: {joint1: {limits: {max_velocity: 2.5}}}}"), urdf);
+  EXPECT_EQ(given.drives[0].limits.max_velocity, 2.5);
+  EXPECT_NE(refusal_of(arm_of(1, "{drives: {joint1: {limits: {max_velocity: 0}}}}"), urdf)
+                .find("max_velocity is 0"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -60,6 +60,45 @@ TEST(RobotDescription, SaysWhenTheTextIsNoUrdf) {
   expect_words(refusal("hinge", "<robot"), {"the test's URDF", "no valid URDF"});
 }
 
+std::string one_joint(const std::string& inside) {
+  return "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"hinge\" "
+         "type=\"revolute\"><parent "
+         "link=\"a\"/><child link=\"b\"/>" +
+         inside + "</joint></robot>";
+}
+
+TEST(RobotDescription, SaysWhenTheTextIsXacro) {
+  const std::string limit = R"(<limit lower="-1" upper="${pi}" velocity="3" effort="1"/>)";
+  expect_words(refusal("hinge", one_joint(limit)), {"the test's URDF", "is xacro", "${", "run xacro first"});
+  expect_words(refusal("hinge", "<robot name=\"r\"><xacro:include filename=\"arm.xacro\"/></robot>"),
+               {"is xacro", "<xacro:", "run xacro first"});
+}
+
+TEST(RobotDescription, SoftLimitsTightenTheHardOnes) {
+  const std::string hard = R"(<limit lower="-1.5" upper="2.5" velocity="3" effort="1"/>)";
+  const auto soft = [&hard](const std::string& limits) {
+    return joint_limits({one_joint(hard + "<safety_controller k_velocity=\"10\" " + limits + "/>"), "test"},
+                        {"hinge"})
+        .at("hinge");
+  };
+  const auto both = soft(R"(soft_lower_limit="-1.2" soft_upper_limit="2.2")");
+  EXPECT_EQ(both.min_position, -1.2);
+  EXPECT_EQ(both.max_position, 2.2);
+  const auto wider = soft(R"(soft_lower_limit="-2" soft_upper_limit="3")");
+  EXPECT_EQ(wider.min_position, -1.5);
+  EXPECT_EQ(wider.max_position, 2.5);
+  const auto none = soft("");
+  EXPECT_EQ(none.min_position, -1.5);
+  EXPECT_EQ(none.max_position, 2.5);
+}
+
+TEST(RobotDescription, AVelocityLimitOf0IsLeftToTheConfiguration) {
+  const std::string urdf = one_joint(R"(<limit lower="-1" upper="1" velocity="0" effort="1"/>)");
+  EXPECT_EQ(joint_limits({urdf, "test"}, {"hinge"}).at("hinge").max_velocity, 0.0);
+  expect_words(refusal("hinge", one_joint(R"(<limit lower="-1" upper="1" velocity="-1" effort="1"/>)")),
+               {"hinge", "velocity limit -1"});
+}
+
 TEST(RobotDescription, NamesTheFileThatCannotBeRead) {
   try {
     read_robot_description_file("/nowhere/robot.urdf");

@@ -61,6 +61,10 @@ def test_a_word_that_is_no_option_is_refused(run, program):
     (["--can", "vcan0", "--epos", "1", "--clock-error-ppm=-200000"], "-100000..100000"),
     (["--config", "/nowhere/drives.yaml"], "/nowhere/drives.yaml cannot be read: No such file or directory"),
     (["--config", "/"], "/ cannot be read: Is a directory"),
+    (["--serial", "link", "--silverlode", "16,17,16"], "--silverlode names 16 twice"),
+    (["--can", "vcan0", "--epos", "2,2"], "--epos names 2 twice"),
+    (["--serial", "link", "--silverlode", "16", "--baud", "12345"], "--baud is 12345; allowed: 300, 1200"),
+    (["--can", "vcan0", "--epos", "1", "--bitrate", "12345"], "--bitrate is 12345; allowed: 1000000, 800000"),
 ])
 def test_emulated_drives_says_what_is_wrong(run, arguments, reason):
     result = run("emulated_drives", *arguments)
@@ -86,6 +90,50 @@ def test_emulated_drives_says_where_a_file_is_no_yaml(run, tmp_path):
 ])
 def test_trajectory_client_says_what_is_wrong(run, arguments, reason):
     result = run("trajectory_client", *arguments)
+    assert result.code == 2
+    assert reason in result.error
+
+
+TRAJECTORY = """
+header: {seq: 0, stamp: {secs: 0, nsecs: 0}, frame_id: ''}
+joint_names: [joint1]
+points:
+  - {positions: [0.1], velocities: [], accelerations: [], effort: [], time_from_start: {secs: 1, nsecs: 500000000}}
+"""
+
+
+def nested(text, *names):
+    """`text`, a map in YAML, below keys from the outermost to the innermost; a key that ends in - holds a list."""
+    for name in reversed(names):
+        lines = text.strip("\n").splitlines()
+        first, others = ("  - ", "    ") if name.endswith("-") else ("  ", "  ")
+        text = name.rstrip("-") + ":\n" + "\n".join((first if i == 0 else others) + line for i, line in enumerate(lines)) + "\n"
+    return text
+
+
+@pytest.mark.parametrize("text", [
+    TRAJECTORY,
+    nested(TRAJECTORY, "trajectory"),                                       # FollowJointTrajectoryGoal
+    "header: {seq: 1}\ngoal_id: {id: x}\n" + nested(TRAJECTORY, "goal", "trajectory") + "---\n",  # rostopic echo .../goal
+    nested(TRAJECTORY, "joint_trajectory"),                                 # RobotTrajectory
+    "model_id: arm\n" + nested(TRAJECTORY, "trajectory-", "joint_trajectory"),  # DisplayTrajectory
+    TRAJECTORY.replace("{secs: 1, nsecs: 500000000}", "{sec: 1, nanosec: 500000000}"),
+])
+def test_goals_are_read_as_messages_are_printed(run, tmp_path, text):
+    (tmp_path / "goal.yaml").write_text(text)
+    result = run("trajectory_client", "--goal", str(tmp_path / "goal.yaml"), "--wait", "0.5")
+    assert result.code == 5, result.error  # the file is good, and there is no master
+
+
+@pytest.mark.parametrize("text, reason", [
+    ("position: [1]\nname: [a]\n", "joint_names is missing; there are position, name. A trajectory_msgs/JointTrajectory is wanted"),
+    ("[1, 2]\n", "no map with joint_names and points"),
+    (TRAJECTORY + "points: []\n", 'key "points" is given twice'),
+    (TRAJECTORY.replace("secs: 1", "seconds: 1"), "time_from_start: secs is missing"),
+])
+def test_goal_files_that_are_none_are_told_for_what_they_are(run, tmp_path, text, reason):
+    (tmp_path / "goal.yaml").write_text(text)
+    result = run("trajectory_client", "--goal", str(tmp_path / "goal.yaml"), "--wait", "0.5")
     assert result.code == 2
     assert reason in result.error
 

@@ -26,6 +26,7 @@ class WrongThing : public testing::Test {
     snapshot.joints.resize(1);
     snapshot.joints[0].capacity = 64;
     positions.assign(1, 0.0);
+    powers.assign(1, false);
   }
 
   static HostTime at(double time) { return HostTime{} + host_duration(time); }
@@ -40,6 +41,7 @@ class WrongThing : public testing::Test {
     seen.now = at(time);
     seen.snapshot = &snapshot;
     seen.positions = &positions;
+    seen.powers = &powers;
     seen.log_lines = log_lines;
     seen.report = report.valid ? &report : nullptr;
     for (const auto& invariant : all) invariant->look(seen);
@@ -87,6 +89,7 @@ class WrongThing : public testing::Test {
   std::vector<std::unique_ptr<Invariant>> all;
   motion::Snapshot snapshot;
   std::vector<double> positions;
+  std::vector<bool> powers;
   motion::MotionReport report;
   std::size_t log_lines = 0;
 };
@@ -154,6 +157,29 @@ TEST_F(WrongThing, PowerThatComesByItself) {
   enter(GroupState::Disabled, 1.0);
   enter(GroupState::Idle, 2.0);
   EXPECT_EQ(violated(), Names{"a fault holds"});
+}
+
+TEST_F(WrongThing, PowerAfterAnAnswerThatItIsOff) {
+  enter(GroupState::Fault, 0.0);
+  ledger.request(1, "disable", at(0.5));
+  powers[0] = true;
+  look(0.6);
+  EXPECT_EQ(violated(), Names{});
+  ledger.take(motion::RequestResult{1, false, "all other drives are disabled"});
+  for (const auto& invariant : all) invariant->request_ended(ledger.requests().at(1));
+  look(0.7);
+  EXPECT_EQ(violated(), Names{"off is off"});
+}
+
+TEST_F(WrongThing, PowerOfADriveOutOfReachOrAskedForIsRight) {
+  enter(GroupState::Fault, 0.0);
+  ledger.add_fault(at(0.2), "elbow", "silence 1");
+  ledger.request(1, "disable", at(0.5));
+  ledger.take(motion::RequestResult{1, false, "all other drives are disabled"});
+  for (const auto& invariant : all) invariant->request_ended(ledger.requests().at(1));
+  powers[0] = true;
+  look(0.7);
+  EXPECT_EQ(violated(), Names{});
 }
 
 TEST_F(WrongThing, AJointThatGoesOnWhenTheGroupStops) {

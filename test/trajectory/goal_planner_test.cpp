@@ -161,6 +161,56 @@ TEST(GoalPlanner, ShiftsAContinuousJointToTheNearestTurn) {
   EXPECT_TRUE(contains(refusal_of_one({point(0, {0}), point(1, {1})}, present), "starts at 0"));
 }
 
+/// Where a continuous joint that stands at `present` goes when it is sent to `target`.
+double continuous_end(double present, double target) {
+  JointLimits limits;
+  limits.continuous = true;
+  return plan_one({point(1, {target})}, present, limits).paths[0].final_position();
+}
+
+// At half a turn both ways are as near. A joint rests some counts off, and people write three decimals.
+TEST(GoalPlanner, TurnsAContinuousJointByHalfATurnAsTheNumbersSay) {
+  for (const double off : {0.0, 1e-9, -1e-9, 1e-4, -1e-4, 1e-3, -1e-3}) {
+    EXPECT_NEAR(continuous_end(-kPi / 2 + off, kPi / 2), kPi / 2, 1e-14) << off;
+    EXPECT_NEAR(continuous_end(kPi / 2 + off, -kPi / 2), -kPi / 2, 1e-14) << off;
+    EXPECT_NEAR(continuous_end(off, kPi), kPi, 1e-14) << off;
+    EXPECT_NEAR(continuous_end(off, -kPi), -kPi, 1e-14) << off;
+  }
+  EXPECT_NEAR(continuous_end(-1.571, 1.571), 1.571, 1e-14);
+}
+
+TEST(GoalPlanner, TurnsAContinuousJointTheShorterWayOtherwise) {
+  EXPECT_NEAR(continuous_end(-kPi / 2 - 0.01, kPi / 2), kPi / 2 - 2 * kPi, 1e-14);
+  EXPECT_NEAR(continuous_end(kPi / 2 + 0.01, -kPi / 2), -kPi / 2 + 2 * kPi, 1e-14);
+  EXPECT_NEAR(continuous_end(7.0, 0.0), 2 * kPi, 1e-14);
+}
+
+// Turned more than once, half a turn goes back: cables are not wound up further.
+TEST(GoalPlanner, UnwindsAContinuousJointAtHalfATurn) {
+  EXPECT_NEAR(continuous_end(3 * kPi, 0.0), 2 * kPi, 1e-14);
+  EXPECT_NEAR(continuous_end(-3 * kPi, 0.0), -2 * kPi, 1e-14);
+  double position = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    for (const double target : {kPi / 2, -kPi / 2, kPi / 2, 0.0})
+      position = continuous_end(position + 3e-5, target);
+    EXPECT_NEAR(position, 0.0, 1e-12);
+  }
+}
+
+TEST(GoalPlanner, RecognisesAStopAtEveryPoint) {
+  const JointLimits limits = limits_of(3.0, 2.0);
+  const auto text = refusal_of_one(
+      {point(0, {0}, {0}), point(0.5, {0.2}, {0}), point(1, {0.4}, {0}), point(1.5, {0.6}, {0})}, 0.0,
+      limits);
+  EXPECT_TRUE(contains(text, "the acceleration")) << text;
+  EXPECT_TRUE(contains(text, "Every point has velocity 0, so the trajectory stops at each of them")) << text;
+  const auto without =
+      refusal_of_one({point(0, {0}, {0}), point(0.5, {0.2}, {0.4}), point(1, {0.9}, {0})}, 0.0, limits);
+  EXPECT_FALSE(contains(without, "Every point")) << without;
+  const auto two = refusal_of_one({point(0, {0}, {0}), point(0.5, {0.9}, {0})}, 0.0, limits);
+  EXPECT_FALSE(contains(two, "Every point")) << two;
+}
+
 TEST(GoalPlanner, LetsUnnamedJointsRest) {
   GoalRules rules = rules_for(2, limits_of(3, 10));
   const Goal goal = one_joint({point(0, {0}), point(1, {1})});

@@ -47,6 +47,116 @@ TEST(LimitsCheck, FindsAnAcceleration) {
   EXPECT_NEAR(std::abs(violation->value), 10.0 / std::sqrt(3.0), 1e-9);
 }
 
+/// Rest to rest through `positions`, a second each.
+Path through(const std::vector<double>& positions) {
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i + 1 < positions.size(); ++i) {
+    const auto start = static_cast<double>(i);
+    pieces.push_back(rest_to_rest(positions[i], positions[i + 1], GoalTime(start), GoalTime(1)));
+  }
+  return Path(std::move(pieces));
+}
+
+JointLimits between(double low, double high) {
+  JointLimits limits;
+  limits.min_position = low;
+  limits.max_position = high;
+  return limits;
+}
+
+TEST(LimitsCheck, SaysWhetherItIsRoundingAKnotOrBetweenKnots) {
+  JointLimits limits;
+  limits.max_velocity = 1.875 / 1.02;
+  const auto text_of = [&limits](const Path& path) {
+    return limit_refusal("elbow", *find_limit_violation(path, limits)).text;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(text_of(unit_move()), "It is 2 % more, as rounding")) << text_of(unit_move());
+  EXPECT_TRUE(has(text_of(unit_move()), "give the planner 0.98 of them, or raise plan_margin"))
+      << text_of(unit_move());
+  limits.max_velocity = 1.5;
+  EXPECT_TRUE(has(text_of(unit_move()), "The curve between two points")) << text_of(unit_move());
+  EXPECT_TRUE(has(text_of(unit_move()), "by a factor of 1.25 or more"));
+  const Piece fast_end{GoalTime(0), GoalTime(1), Polynomial{{0.0, 0.0, 1.0, 0.0, 0.0, 0.0}}};
+  EXPECT_TRUE(has(text_of(Path({fast_end})), "A point asks for it itself")) << text_of(Path({fast_end}));
+}
+
+TEST(LimitsCheck, LeavesThePlanItsMargin) {
+  JointLimits limits;
+  limits.max_velocity = 1.875 / 1.009;
+  limits.max_acceleration = 10.0 / std::sqrt(3.0) / 1.009;
+  EXPECT_TRUE(find_limit_violation(unit_move(), limits));
+  limits.rate_slack = 0.01;
+  EXPECT_FALSE(find_limit_violation(unit_move(), limits));
+  limits.rate_slack = 0.008;
+  EXPECT_TRUE(find_limit_violation(unit_move(), limits));
+}
+
+TEST(LimitsCheck, LeavesTheSlackOfTheJoint) {
+  JointLimits limits = between(0.0, 1.0);
+  EXPECT_TRUE(find_limit_violation(through({0.5, 1.00005, 0.5}), limits));
+  limits.position_slack = 6e-5;
+  EXPECT_FALSE(find_limit_violation(through({0.5, 1.00005, 0.5}), limits));
+  EXPECT_FALSE(find_limit_violation(through({0.5, -0.00005, 0.5}), limits));
+  EXPECT_TRUE(find_limit_violation(through({0.5, 1.00007, 0.5}), limits));
+  EXPECT_TRUE(find_limit_violation(through({0.5, -0.00007, 0.5}), limits));
+}
+
+TEST(LimitsCheck, LetsAJointThatStandsOutsideMoveInOrStay) {
+  const JointLimits limits = between(0.0, 1.0);
+  for (const auto& inwards : std::vector<std::vector<double>>{{-0.2, 0.5},
+                                                              {-0.2, -0.2, 0.5},
+                                                              {-0.2, -0.1},
+                                                              {-0.2, -0.2},
+                                                              {-0.2, -0.1, 0.0, 1.0, 0.0},
+                                                              {1.3, 0.5},
+                                                              {1.3, 1.2, 1.2, 1.1},
+                                                              {1.3, 1.3},
+                                                              {1.3, 0.0, 1.0}}) {
+    EXPECT_FALSE(find_limit_violation(through(inwards), limits)) << ::testing::PrintToString(inwards);
+  }
+}
+
+TEST(LimitsCheck, LetsNoJointThatStandsOutsideMoveFartherOutOrOutAgain) {
+  const JointLimits limits = between(0.0, 1.0);
+  for (const auto& outwards : std::vector<std::vector<double>>{{-0.2, -0.21},
+                                                               {-0.2, -0.1, -0.15},
+                                                               {-0.2, 0.5, -0.1},
+                                                               {-0.2, 1.1},
+                                                               {-0.2, -0.1, 0.0, -0.1},
+                                                               {1.3, 1.31},
+                                                               {1.3, 0.5, 1.1},
+                                                               {1.3, 1.1, 1.2},
+                                                               {1.3, -0.1}}) {
+    const auto violation = find_limit_violation(through(outwards), limits);
+    ASSERT_TRUE(violation) << ::testing::PrintToString(outwards);
+    EXPECT_EQ(violation->quantity, Quantity::Position);
+    EXPECT_EQ(violation->maximum, 1.0);
+  }
+}
+
+// One piece of degree 5 that sets out inwards, turns while it is outside and comes in at last.
+TEST(LimitsCheck, FindsATurnWithinAPieceThatBeginsOutside) {
+  const Piece straight{GoalTime(0), GoalTime(1), Polynomial{{-0.2, 0.3, 0.0, 0.0, 0.0, 0.0}}};
+  const Piece turns{GoalTime(0), GoalTime(1), Polynomial{{-0.2, 0.3, -1.2, 1.5, 0.0, 0.0}}};
+  ASSERT_LT(turns.polynomial.position(0.3), turns.polynomial.position(0.2));
+  EXPECT_FALSE(find_limit_violation(Path({straight}), between(0.0, 1.0)));
+  const auto violation = find_limit_violation(Path({turns}), between(0.0, 1.0));
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->begins_outside, -0.2);
+  EXPECT_NE(limit_refusal("elbow", *violation).text.find("stands outside, at -0.2"), std::string::npos);
+}
+
+TEST(LimitsCheck, HoldsTheOtherLimitsOnTheWayIn) {
+  JointLimits limits = between(0.0, 1.0);
+  limits.max_velocity = 0.5;
+  const auto violation = find_limit_violation(through({-0.2, 0.5}), limits);
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->quantity, Quantity::Velocity);
+}
+
 TEST(LimitsCheck, FindsAPositionUnlessTheJointIsContinuous) {
   JointLimits limits;
   limits.max_position = 0.99;
@@ -107,19 +217,28 @@ TEST(LimitsCheckProperty, SeparatesLimitsJustAboveAndJustBelowThePeak) {
       const double factor = inside ? 1.001 : 0.999;
       JointLimits limits;
       limits.max_position = position + (inside ? 0.001 : -0.001);
-      EXPECT_EQ(find_limit_violation(path, limits).has_value(), !inside);
+      const bool begins_outside = piece.polynomial.position(0.0) > limits.max_position;
+      if (!begins_outside) {
+        EXPECT_EQ(find_limit_violation(path, limits).has_value(), !inside);
+      }
       EXPECT_EQ(find_limit_violation(path, limits_of(factor * velocity, 1e9)).has_value(), !inside);
       EXPECT_EQ(find_limit_violation(path, limits_of(1e9, factor * acceleration)).has_value(), !inside);
     }
   }
 }
 
-/// Whether samples of the path at 400 instants a piece are outside by more than `margin`.
+/// Whether samples of the path at 400 instants a piece are outside by more than `margin`, or farther outside
+/// than one before was.
 bool sampled_outside(const Path& path, const JointLimits& limits, double margin) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
   for (const Piece& piece : path.pieces()) {
     for (int i = 0; i <= 400; ++i) {
       const State s = piece.polynomial.state(piece.duration().count() * i / 400.0);
-      if (s.position > limits.max_position + margin || s.position < limits.min_position - margin) return true;
+      lowest = std::min(lowest, s.position);
+      highest = std::max(highest, s.position);
+      if (s.position > std::max(limits.max_position, lowest) + margin) return true;
+      if (s.position < std::min(limits.min_position, highest) - margin) return true;
       if (std::abs(s.velocity) > limits.max_velocity * (1 + margin)) return true;
       if (std::abs(s.acceleration) > limits.max_acceleration * (1 + margin)) return true;
     }

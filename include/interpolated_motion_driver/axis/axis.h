@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/axis/axis_notes.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -23,7 +24,8 @@ enum class AxisState {
   Loaded,         ///< waits for arm()
   Moving,         ///< the drive plays its FIFO
   Stopping,       ///< brakes by its own deceleration, then empties its FIFO
-  FaultStopping,  ///< the host has found a fault and the drive may still be moving: ends in Fault
+  FaultStopping,  ///< a fault was found, and the drive may still be moving, or is being switched off: ends in
+                  ///< Fault or Offline; disable() of Fault and Offline leads here
   Fault,          ///< the drive is in fault, or it did not do what it was told: reset_fault()
 };
 
@@ -114,7 +116,9 @@ class Axis {
   virtual void bring_up(HostTime now) = 0;
   /// Switches the power stage on: Enabling, then Ready. Without effect but in Disabled.
   virtual void enable(HostTime now) = 0;
-  /// Switches the power stage off: Stopping, then Disabled. Without effect but in Ready.
+  /// Switches the power stage off: Stopping, then Disabled. A drive that is Offline or in Fault is told too,
+  /// once, since it may be on for all that is known, and keeps its fault: FaultStopping until it has
+  /// answered, a second or two at most. Without effect in other states than these and Ready.
   virtual void disable(HostTime now) = 0;
   /// Clears a fault; an axis that was lost is looked for again. Ends in Disabled. Without effect but in Fault
   /// and Offline.
@@ -175,6 +179,8 @@ class Axis {
   virtual void status(HostTime now, AxisStatus& out) const = 0;
   /// Of the plan loaded last.
   virtual AxisReport report() const = 0;
+  /// What has happened to the drive and is to be logged, oldest first; nothing if there is no more.
+  virtual std::optional<AxisNote> take_note() { return std::nullopt; }
 };
 
 }  // namespace interpolated_motion::axis

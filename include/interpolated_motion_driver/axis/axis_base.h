@@ -24,6 +24,7 @@ class AxisBase : public PowerStage {
   void poll(HostTime now) override;
   HostTime next_deadline() const override;
   void bring_up(HostTime now) override;
+  void disable(HostTime now) override;
 
   /// Who plays while the drive is enabled. To be called once, before anything else.
   void attach(Player& player) { player_ = &player; }
@@ -57,6 +58,7 @@ class AxisBase : public PowerStage {
     Disabling,
     Resetting,
     FaultStopping,  ///< a fault was found in motion; told to stop until it stands or cannot move any more
+    SwitchingOff,   ///< in fault or lost, and told to switch its power stage off
     Fault,
   };
 
@@ -100,6 +102,12 @@ class AxisBase : public PowerStage {
   virtual bool stands() const = 0;
   /// The drive has answered to the stop: whether it stands will show, however long that takes.
   virtual bool obeys_stop() const { return false; }
+  /// What a drive that has come to rest has told of the fault since: a sentence with a blank before it, or
+  /// nothing.
+  virtual std::string cause_text() const { return {}; }
+  /// Switches off the power stage of a drive that is in fault or lost: begins to when nothing has been begun,
+  /// and tells how it has ended, nothing while that is open.
+  virtual std::optional<bool> switch_off(HostTime now) = 0;
   /// Why it is not known whether the drive stands.
   virtual std::string unseen_text() const = 0;
 
@@ -115,8 +123,8 @@ class AxisBase : public PowerStage {
   void run_stage(HostTime now);
   void poll_probing(HostTime now);
   void poll_fault_stopping(HostTime now);
+  void poll_switching_off(HostTime now);
   void end_in(Stage stage, const std::string& reason, HostTime now);
-  void end_fault_stopping(const std::string& how, HostTime now);
 
   const Settings settings_;
   Player* player_ = nullptr;

@@ -62,6 +62,7 @@ class ComposedAxis : public Axis {
     player_->motion_status(now, out);
   }
   AxisReport report() const override { return player_->report(); }
+  std::optional<AxisNote> take_note() override { return stage_->notes().take(); }
 
  protected:
   /// To be called by the constructor of the axis, which owns both.

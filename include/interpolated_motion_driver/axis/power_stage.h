@@ -3,6 +3,7 @@
 #include <string>
 
 #include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/axis/axis_notes.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
@@ -40,6 +41,12 @@ class PowerStage {
   virtual const AxisFeedback& feedback() const = 0;
   /// Sets `online`, `state`, `statusword`, `mode`, `error_code` and `error_text`.
   virtual void drive_status(AxisStatus& out) const = 0;
+
+  /// What is to be logged of the drive.
+  AxisNotes& notes() { return notes_; }
+
+ private:
+  AxisNotes notes_;
 };
 
 }  // namespace interpolated_motion::axis

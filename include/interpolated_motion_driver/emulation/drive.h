@@ -39,6 +39,9 @@ class Drive {
   /// Actual position, counts, as of the last process(), whether the drive is powered or not.
   virtual std::int32_t position() const = 0;
 
+  /// The motor has power: the power stage is on and the drive holds or moves its axis.
+  virtual bool has_torque() const = 0;
+
   /// `observer` is called at each own sample of the drive while it is powered, in place of any other. An
   /// empty function ends that: drives that nobody looks at may compute less.
   virtual void observe(Observer observer) = 0;

@@ -48,6 +48,9 @@ class Assembly {
   /// emulated here.
   std::optional<double> emulated_position(std::size_t joint) const;
 
+  /// Whether the motor of a joint's emulated drive has power; nothing if it is not emulated here.
+  std::optional<bool> emulated_power(std::size_t joint) const;
+
   /// Injects a fault into what is called `target`, a joint or a bus. Returns why not: it is not emulated, or
   /// does not know the command.
   std::optional<std::string> inject(const std::string& target, const std::string& command, HostTime now);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_parameters.h"
@@ -91,5 +92,9 @@ struct BusConfiguration {
 
 /// Reads `buses/<name>`. Throws like ParameterReader.
 BusConfiguration parse_bus(const std::string& name, ParameterReader reader);
+
+/// The rates that a SilverLode line and a CANopen bus can have, bit/s.
+std::vector<std::uint32_t> serial_rates();
+std::vector<std::uint32_t> can_rates();
 
 }  // namespace interpolated_motion::hardware

@@ -33,11 +33,12 @@ struct Configuration {
   /// deceleration.
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
-  double start_tolerance = 0.05;  ///< rad, of a goal's first point at t = 0 against the present position
-  double commit_horizon = 2.0;    ///< s of motion kept in the drives' FIFOs
-  double bring_up_timeout = 5.0;  ///< s for all drives to answer and be configured
-  double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
-  bool enable_on_start = true;    ///< power stages are switched on when all drives are configured
+  double start_tolerance = 0.05;    ///< rad, of a goal's first point at t = 0 against the present position
+  double max_start_ahead = 3600.0;  ///< s from now to a goal's stamp; one further ahead is refused
+  double commit_horizon = 2.0;      ///< s of motion kept in the drives' FIFOs
+  double bring_up_timeout = 5.0;    ///< s for all drives to answer and be configured
+  double settle_timeout = 0.5;      ///< s after the last record for the joints to settle, when goal_time is 0
+  bool enable_on_start = true;      ///< power stages are switched on when all drives are configured
   motion::StreamParameters setpoints;  ///< how streams of setpoints are followed
 
   /// The bus of a drive. Throws std::invalid_argument that names the parameter when there is none of that

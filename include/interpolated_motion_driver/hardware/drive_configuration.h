@@ -34,6 +34,8 @@ struct DriveConfiguration {
   trajectory::JointLimits limits;       ///< URDF limits, tightened by the configuration
   double deviation_bound = 1.0;         ///< counts, worst deviation from the path at any drive sample
   double max_following_error = 0.1;     ///< rad, beyond it the drive faults (0x6065, ERL)
+  /// 1..limit_margin; a plan may exceed the joint's velocity and acceleration by this factor
+  double plan_margin = 1.01;
   double limit_margin = 1.2;  ///< 1..10; what the drive is given may exceed the joint's limits by this factor
   DriveEmulation emulation;   ///< without meaning where the bus is not emulated
   std::shared_ptr<const DriveSettings> settings;  ///< of its kind

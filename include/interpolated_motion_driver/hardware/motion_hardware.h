@@ -112,6 +112,8 @@ class MotionHardware {
   /// Where the emulated drive of a joint stands, rad, as of the last update(), whether or not its bus tells;
   /// nothing if it is not emulated in this process. `joint` is a number in joints().
   std::optional<double> emulated_position(std::size_t joint) const;
+  /// Whether the motor of the joint's emulated drive has power, in the same way.
+  std::optional<bool> emulated_power(std::size_t joint) const;
 
   /// Injects a fault into the emulated drive of a joint or into an emulated bus, see emulation/drive.h and
   /// emulation/bus_faults.h. False

@@ -32,7 +32,9 @@ class ParameterReader {
   bool boolean(const std::string& key, bool fallback);
   std::string text(const std::string& key, const std::string& fallback);
   std::string required_text(const std::string& key);
-  /// A list of names, at least one, none twice.
+  /// A text that is not empty.
+  std::string required_name(const std::string& key);
+  /// A list of names, at least one, none twice, none with a slash.
   std::vector<std::string> names(const std::string& key);
 
   /// One of the words of `choices`; `fallback` when the key is missing.
@@ -58,7 +60,8 @@ class ParameterReader {
   void ignore(const std::string& key) { known_.insert(key); }
   const YAML::Node& node() const { return node_; }
 
-  /// Throws for the first key that nobody has asked for: a typing error must not pass as a default.
+  /// Throws for the first key that nobody has asked for, or that is there twice: a typing error must not pass
+  /// as a default.
   void refuse_unknown() const;
 
   /// Throws "<path>/<key> <what>."

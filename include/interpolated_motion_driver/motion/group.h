@@ -145,7 +145,9 @@ class Group {
   std::vector<axis::StartSignal*> signals_;
   GroupState state_ = GroupState::Starting;
   bool enable_when_found_ = false;
-  bool disable_when_stopped_ = false;
+  /// Whether the drives are to be switched off when nothing moves, or have been told to.
+  enum class PowerOff { No, Wanted, Told };
+  PowerOff power_off_ = PowerOff::No;
   std::string fault_;
   HostTime in_force_since_ = kNever;  ///< start of the trajectory (or rest) that query() answers for
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/trajectory/roots.h"
 
 namespace interpolated_motion::trajectory {
 
@@ -15,6 +16,10 @@ struct Range {
   Extremum minimum;  ///< not above any value over the interval
   Extremum maximum;  ///< not below any value over the interval
 };
+
+/// Local times within [from, to] at which the position of a polynomial turns, ascending: between neighbours,
+/// and the ends, it is monotone.
+Roots<4> position_turns(const Polynomial& polynomial, double from, double to);
 
 /// Exact range of the position, velocity or acceleration of a polynomial over local times [from, to], `from`
 /// <= `to`: the ends and every root of the derivative between them, isolated by the roots of the next

@@ -46,6 +46,12 @@ struct JointLimits {
   double max_velocity = std::numeric_limits<double>::infinity();   ///< magnitude, > 0
   double max_acceleration = std::numeric_limits<double>::infinity();  ///< magnitude, > 0
   bool continuous = false;  ///< the position wraps around at 2 pi (URDF type `continuous`)
+  /// How far (rad or m) a position may be beyond its limits, for what is left of a value at the limit after
+  /// printing and rounding; of a drive some encoder counts.
+  double position_slack = 1e-6;
+  /// How far a plan's velocity and acceleration may be beyond their limits, as a part of them, for the same
+  /// reason (toppra gives 2.5000147 at a limit of 2.5).
+  double rate_slack = 1e-4;
 };
 
 }  // namespace interpolated_motion::trajectory

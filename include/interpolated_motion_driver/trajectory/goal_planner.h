@@ -38,7 +38,8 @@ struct GoalPlan {
 /// - First point later: the path bridges from rest at the present position, beginning at 0.
 ///   `start_tolerance` does not apply, the limits do.
 /// - Positions of a continuous joint are shifted, all alike, by the multiple of 2 pi that brings the first
-///   point nearest to the present position.
+///   point nearest to the present position. At half a turn (`kHalfTurnTolerance`) it is the smaller one: the
+///   joint moves as the numbers say, and does not wind up.
 /// - The last point must be at rest (`kRestVelocity`).
 /// - The whole path of every named joint is within `limits`, between the points too.
 ///

@@ -33,6 +33,9 @@ struct GoalRules {
   std::vector<double> lead_in_threshold;
   /// Accept goals that name some of the joints only; the others rest where they are.
   bool allow_partial_joints = false;
+  /// A goal whose stamp is further ahead is refused: no planner waits so long, but a clock that is wrong may
+  /// say so.
+  GoalTime max_start_ahead{3600.0};
 };
 
 }  // namespace interpolated_motion::trajectory

@@ -16,6 +16,10 @@ namespace interpolated_motion::trajectory {
 /// Part of the limits that a lead-in uses: it should look like the careful approach it is.
 inline constexpr double kLeadInPart = 0.5;
 
+/// A distance (rad) this much longer than half a turn counts as half a turn: two angles given with three
+/// decimals are up to 1e-3 rad off, and the joint that rests at one of them is off by some counts.
+inline constexpr double kHalfTurnTolerance = 2e-3;
+
 /// The part of a goal that a path is made of.
 struct PointSelection {
   std::vector<std::size_t> columns;  ///< of every joint in the points, or `kNotNamed`

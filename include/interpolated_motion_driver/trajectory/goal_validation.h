@@ -16,6 +16,10 @@ namespace interpolated_motion::trajectory {
 /// small enough that no polynomial of a path can overflow.
 inline constexpr double kLargestValue = 1e9;
 
+/// Largest tolerance (rad or m, per s, per s^2) that a goal may ask for, and the longest time (s) to settle:
+/// those of the parameters `constraints/...`.
+inline constexpr double kLargestTolerance = 1e6;
+
 /// Latest time of a point: the longest duration that a ROS message can carry.
 inline constexpr GoalTime kLatestTime{2147483647.0};
 
@@ -43,5 +47,9 @@ bool is_stop_request(const Goal& goal);
 /// Velocities or accelerations in some points only are well formed, see `build_path`.
 std::optional<Refusal> validate_goal(const Goal& goal, const std::vector<std::string>& joints,
                                      bool allow_partial);
+
+/// Refused (InvalidGoal): a goal whose stamp is more than `max_ahead` after `now`. One of the past is the
+/// matter of `drop_past_points`.
+std::optional<Refusal> validate_stamp(const Goal& goal, GoalTime max_ahead, HostTime now);
 
 }  // namespace interpolated_motion::trajectory

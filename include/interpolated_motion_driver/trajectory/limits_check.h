@@ -10,12 +10,6 @@
 
 namespace interpolated_motion::trajectory {
 
-/// How far a path may be beyond a limit, for what is left of a value at the limit after printing and rounding
-/// (toppra gives 2.5000147 at a limit of 2.5): positions in rad or m, velocities and accelerations as a part
-/// of the limit.
-inline constexpr double kPositionSlack = 1e-6;
-inline constexpr double kRateSlack = 1e-4;
-
 /// What a limit or a tolerance is about: in rad or m, per s, per s^2.
 enum class Quantity { Position, Velocity, Acceleration };
 
@@ -29,14 +23,24 @@ struct LimitViolation {
   double value = 0.0;                      ///< rad or m, per s, per s^2
   double minimum = 0.0;                    ///< allowed, in the same unit; slack not included
   double maximum = 0.0;                    ///< allowed, in the same unit; slack not included
+  bool at_knot = false;                    ///< at the begin or end of a piece, else within one
+  /// Where the path begins, if that is outside the limits of position (rad or m) and so is the violation.
+  std::optional<double> begins_outside;
 };
 
 /// The first piece of `path` with a position, velocity or acceleration outside `limits`, in exact extrema,
 /// i.e. between the knots too; nothing if the whole path is within. Positions of a continuous joint are not
 /// limited. A NaN is outside. A path without pieces rests and is not checked. No allocation.
+///
+/// A path that begins outside the limits of position, where a joint has been pushed or left, may stand there
+/// or move in: as long as it is outside it never moves farther out, and once it is inside it stays there.
 std::optional<LimitViolation> find_limit_violation(const Path& path, const JointLimits& limits);
 
-/// The refusal for it: names joint, value, time, allowed range, and what to do.
+/// The same of positions alone.
+std::optional<LimitViolation> find_position_violation(const Path& path, const JointLimits& limits);
+
+/// The refusal for it: names joint, value, time, allowed range, whether a point asks for it itself, the curve
+/// between two points does, or it is little enough to come from rounding, and what to do.
 Refusal limit_refusal(const std::string& joint, const LimitViolation& violation);
 
 }  // namespace interpolated_motion::trajectory

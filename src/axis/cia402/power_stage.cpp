@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/axis/cia402/power_stage.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -30,12 +31,13 @@ Cia402PowerStage::Cia402PowerStage(const Cia402Settings& settings, Cia402Device&
       master_(master),
       node_(node),
       sequence_(node),
-      controlword_(master, node, settings_.controlword_rpdo) {}
+      controlword_(master, node, settings_.controlword_rpdo),
+      errors_(device, sequence_, notes(), [this] { return who(); }) {}
 
 // Polling.
 
 void Cia402PowerStage::listen(HostTime now) {
-  collect_emergencies();
+  errors_.collect(node_, now);
   watch_heartbeat(now);
   watch_power_stage(now);
 }
@@ -76,7 +78,9 @@ std::string Cia402PowerStage::no_answer_text() const {
 
 void Cia402PowerStage::configure(HostTime now) {
   by_pdo_ = false;
-  sequence_.start(device_.bring_up_steps(sequence_), now);
+  std::vector<SdoSequence::Step> steps = device_.bring_up_steps(sequence_);
+  steps.insert(steps.begin(), errors_.read(now));
+  sequence_.start(std::move(steps), now);
 }
 
 void Cia402PowerStage::poll_configuring(HostTime now) {
@@ -96,6 +100,7 @@ void Cia402PowerStage::poll_reports(HostTime now) {
   configured_ = true;
   device_.on_started();
   const bool faulted = drive_state() == cia402::State::Fault;
+  if (faulted) errors_.note(true, "found in fault, which is reset now: " + drive_fault(), now);
   enter(faulted ? Stage::Resetting : Stage::Disabling, now);
 }
 
@@ -106,9 +111,11 @@ void Cia402PowerStage::enable(HostTime now) {
   enter(Stage::Enabling, now);
   by_pdo_ = false;
   const auto mode = static_cast<std::int8_t>(settings_.mode);
-  sequence_.start(
-      {SdoSequence::write(canopen::sdo_write<std::int8_t>(object::kModeOfOperation, mode)), read_mode()},
-      now);
+  std::vector<SdoSequence::Step> steps = device_.enable_steps();
+  steps.push_back(errors_.read(now));
+  steps.push_back(SdoSequence::write(canopen::sdo_write<std::int8_t>(object::kModeOfOperation, mode)));
+  steps.push_back(read_mode());
+  sequence_.start(std::move(steps), now);
 }
 
 SdoSequence::Step Cia402PowerStage::read_mode() {
@@ -144,7 +151,25 @@ void Cia402PowerStage::poll_enabling(HostTime now) {
 }
 
 void Cia402PowerStage::disable(HostTime now) {
-  if (state() == AxisState::Ready) enter(Stage::Disabling, now);
+  if (state() == AxisState::Ready) return enter(Stage::Disabling, now);
+  AxisBase::disable(now);
+}
+
+// By SDO: a drive that has restarted has lost the mapping of its PDOs.
+std::optional<bool> Cia402PowerStage::switch_off(HostTime now) {
+  if (sequence_.running()) return std::nullopt;
+  if (sequence_.state() == SdoSequence::State::Failed) return false;
+  if (sequence_.state() == SdoSequence::State::Done && !is_powered()) return true;
+  const auto take_statusword = [this](const SdoResult& r) -> std::optional<std::string> {
+    if (!r.ok) return r.text();
+    report_.statusword = cia402::Statusword{r.as_u16()};
+    return std::nullopt;
+  };
+  const std::uint16_t word = cia402::controlword::kDisableVoltage;
+  sequence_.start({SdoSequence::write(canopen::sdo_write<std::uint16_t>(object::kControlword, word)),
+                   SdoSequence::read(object::kStatusword, take_statusword)},
+                  now);
+  return std::nullopt;
 }
 
 void Cia402PowerStage::poll_disabling(HostTime now) {
@@ -152,15 +177,23 @@ void Cia402PowerStage::poll_disabling(HostTime now) {
 }
 
 void Cia402PowerStage::reset_fault(HostTime now) {
-  if (stage() == Stage::Offline || (stage() == Stage::Fault && !configured_)) return bring_up(now);
+  const bool lost = stage() == Stage::Offline || stage() == Stage::SwitchingOff;
+  if (lost || (stage() == Stage::Fault && !configured_)) return bring_up(now);
   if (stage() != Stage::Fault) return;
   enter(Stage::Resetting, now);
+  by_pdo_ = false;
+  sequence_.start({errors_.read(now)}, now);
 }
 
+// Nothing is cleared that has not been read.
 void Cia402PowerStage::poll_resetting(HostTime now) {
+  if (!by_pdo_) {
+    if (sequence_.running()) return;
+    by_pdo_ = true;
+    time().begin(now);
+  }
   if (controlword_.reset(drive_state(), report_.status_time, time().since(), now)) {
-    error_code_ = 0;
-    error_text_.clear();
+    errors_.end(now);
     return enter(Stage::Disabled, now);
   }
   if (time().expired(now, kStateTimeout)) fail("the fault cannot be reset: " + drive_fault(), now);
@@ -188,14 +221,6 @@ bool Cia402PowerStage::sequence_done(HostTime now) {
 }
 
 // Watching.
-
-void Cia402PowerStage::collect_emergencies() {
-  while (auto emcy = node_.take_emcy()) {
-    if (emcy->code == cia402::emergency_code::kReset) continue;
-    error_code_ = emcy->code;
-    error_text_ = device_.text_of(*emcy);
-  }
-}
 
 // A drive that has restarted has no power stage that is on, so it does not move, whatever it was doing.
 void Cia402PowerStage::watch_heartbeat(HostTime now) {
@@ -229,7 +254,7 @@ void Cia402PowerStage::watch_power_stage(HostTime now) {
 
 std::string Cia402PowerStage::drive_fault() const {
   std::string text = fmt::format("the drive is in {}", cia402::to_text(drive_state()));
-  if (!error_text_.empty()) text += ": " + error_text_;
+  if (!errors_.text().empty()) text += ": " + errors_.text();
   return text + device_.fault_detail();
 }
 
@@ -288,8 +313,8 @@ void Cia402PowerStage::drive_status(AxisStatus& out) const {
   out.state = std::string(cia402::to_text(drive_state()));
   out.statusword = report_.statusword.raw;
   out.mode = report_.mode;
-  out.error_code = error_code_;
-  out.error_text = error_text_;
+  out.error_code = errors_.code();
+  out.error_text = errors_.text();
 }
 
 }  // namespace interpolated_motion::axis

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
 #include "interpolated_motion_driver/protocol/cia402/objects.h"
@@ -55,21 +56,6 @@ Steps deceleration(const CyclicAxisParameters& p) {
           write_if_present(sdo_write<std::uint32_t>(object::kQuickStopDeceleration, units))};
 }
 
-/// Two counts outside the joint's own limits, so that rounding never trips them.
-Steps position_limits(const CyclicAxisParameters& p) {
-  double low = std::numeric_limits<std::int32_t>::min();
-  double high = std::numeric_limits<std::int32_t>::max();
-  const auto& limits = p.limits;
-  if (!limits.continuous && std::isfinite(limits.min_position) && std::isfinite(limits.max_position)) {
-    const double a = p.transmission.counts(limits.min_position);
-    const double b = p.transmission.counts(limits.max_position);
-    low = std::floor(std::min(a, b)) - 2.0;
-    high = std::ceil(std::max(a, b)) + 2.0;
-  }
-  return {write_if_present(sdo_write<std::int32_t>(object::kMinPositionLimit, to_i32(low))),
-          write_if_present(sdo_write<std::int32_t>(object::kMaxPositionLimit, to_i32(high)))};
-}
-
 Steps cycle(const CyclicAxisParameters& p) {
   const auto ms = static_cast<std::uint8_t>(count<std::chrono::milliseconds>(p.sync_period));
   const auto us = static_cast<std::uint32_t>(count<std::chrono::microseconds>(p.sync_period));
@@ -93,12 +79,20 @@ Steps pdos(const CyclicAxisParameters& p, std::uint8_t node) {
 
 }  // namespace
 
+std::vector<SdoSequence::Step> cyclic_position_limit_steps(const CyclicAxisParameters& parameters,
+                                                           std::optional<double> present) {
+  Steps steps;
+  for (const canopen::SdoWrite& write : position_limits(parameters.limits, parameters.transmission, present))
+    steps.push_back(write_if_present(write));
+  return steps;
+}
+
 std::vector<SdoSequence::Step> cyclic_bring_up_steps(const CyclicAxisParameters& parameters,
                                                      std::uint8_t node, cia402::Identity& identity) {
   Steps steps = verification(identity);
   append(steps, supervision(parameters));
   append(steps, deceleration(parameters));
-  append(steps, position_limits(parameters));
+  append(steps, cyclic_position_limit_steps(parameters, std::nullopt));
   append(steps, cycle(parameters));
   append(steps, pdos(parameters, node));
   return steps;

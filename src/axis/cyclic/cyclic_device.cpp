@@ -74,6 +74,10 @@ std::string CyclicDevice::description() const {
                      seconds(parameters_.sync_period) * 1e3);
 }
 
+std::vector<SdoSequence::Step> CyclicDevice::enable_steps() const {
+  return cyclic_position_limit_steps(parameters_, feedback_.position);
+}
+
 std::vector<SdoSequence::Step> CyclicDevice::bring_up_steps(SdoSequence&) {
   identity_ = {};
   return cyclic_bring_up_steps(parameters_, node_.id(), identity_);

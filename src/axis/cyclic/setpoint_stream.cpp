@@ -26,14 +26,6 @@ constexpr double kComeBackMargin = 1.1;
 constexpr int kShortestComeBack = 6;
 constexpr int kLongestComeBack = 50;
 
-bool leaves_positions(const trajectory::Path& path, const trajectory::JointLimits& limits) {
-  trajectory::JointLimits positions;
-  positions.min_position = limits.min_position;
-  positions.max_position = limits.max_position;
-  positions.continuous = limits.continuous;
-  return trajectory::find_limit_violation(path, positions).has_value();
-}
-
 /// How a stop that begins at `start`, with `before` in front of it, is made for a drive.
 class StopSearch {
  public:
@@ -49,7 +41,7 @@ class StopSearch {
     for (const int periods : kRamps) {
       const trajectory::Path candidate = trajectory::jerk_limited_stop(
           from, start_, {kBrakingShare * limits_.max_acceleration, periods * encoding_.period});
-      if (leaves_positions(candidate, limits_)) break;
+      if (trajectory::find_position_violation(candidate, limits_)) break;
       const double acceleration = demand(candidate);
       if (acceleration >= least) continue;
       best = candidate;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/axis/epos/telemetry.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
@@ -150,21 +151,6 @@ Steps motion_limits(const EposAxisParameters& parameters, EposFacts& facts) {
           write_u32(object::kQuickStopDeceleration, acceleration)};
 }
 
-/// The drive's own position limits lie two counts outside the joint's, so that rounding never trips them.
-Steps position_limits(const EposAxisParameters& parameters) {
-  double low = std::numeric_limits<std::int32_t>::min();
-  double high = std::numeric_limits<std::int32_t>::max();
-  const auto& limits = parameters.limits;
-  if (!limits.continuous && std::isfinite(limits.min_position) && std::isfinite(limits.max_position)) {
-    const double a = parameters.transmission.counts(limits.min_position);
-    const double b = parameters.transmission.counts(limits.max_position);
-    low = std::floor(std::min(a, b)) - 2.0;
-    high = std::ceil(std::max(a, b)) + 2.0;
-  }
-  return {SdoSequence::write(sdo_write<std::int32_t>(object::kMinPositionLimit, to_i32(low))),
-          SdoSequence::write(sdo_write<std::int32_t>(object::kMaxPositionLimit, to_i32(high)))};
-}
-
 Steps supervision(const EposAxisParameters& parameters) {
   const auto ms = [](HostDuration d) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(d).count();
@@ -299,7 +285,7 @@ std::vector<SdoSequence::Step> epos_bring_up_steps(const EposAxisParameters& par
   append(steps, supervision(parameters));
   append(steps, try_velocity_notation({parameters, sequence, facts}, kFinestVelocityNotation));
   append(steps, motion_limits(parameters, facts));
-  append(steps, position_limits(parameters));
+  append(steps, writes(position_limits(parameters.limits, parameters.transmission, std::nullopt)));
   append(steps, pdos(parameters, node, sequence, facts));
   return steps;
 }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/cia402/position_limits.h"
+#include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
 
@@ -51,6 +53,10 @@ std::string EposDevice::clock_text() const {
 std::vector<SdoSequence::Step> EposDevice::bring_up_steps(SdoSequence& sequence) {
   facts_ = EposFacts{};
   return epos_bring_up_steps(parameters_, node_.id(), sequence, facts_);
+}
+
+std::vector<SdoSequence::Step> EposDevice::enable_steps() const {
+  return sdo_steps::writes(position_limits(parameters_.limits, parameters_.transmission, feedback_.position));
 }
 
 bool EposDevice::has_reported(HostTime since) const {

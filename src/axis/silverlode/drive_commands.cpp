@@ -18,7 +18,6 @@ using Failure = std::optional<std::string>;
 
 namespace {
 
-constexpr std::uint16_t kAllPollingBits = 0xFFFF;
 /// Kill-motor conditions in the bits of the internal status word: temperature no longer OK (bit 7 is 0),
 /// moving error (bit 8 is 1).
 constexpr std::uint16_t kKillMotorConditions = 0x0180;
@@ -80,25 +79,55 @@ DriveCommands::Step DriveCommands::await_rest(int looks_left) {
           }};
 }
 
-DriveCommands::Step DriveCommands::check_no_fault() {
-  return {silverlode::ris_request(device_.address()), [this](const Outcome& outcome) -> Failure {
+/// `look` is for a drive that has answered.
+DriveCommands::Step DriveCommands::read_polling_status(CommandSequence::Check look) {
+  return {silverlode::pol_request(device_.address()), [this, look](const Outcome& outcome) -> Failure {
             if (!outcome.accepted()) return device_.text(outcome);
-            const silverlode::InternalStatus status{outcome.word().value_or(0)};
-            if (!status.fault()) return std::nullopt;
-            return "the drive reports: " + status.text();
+            status_.polling.raw = outcome.polling_status().value_or(0);
+            return look(outcome);
           }};
 }
 
-DriveCommands::Steps DriveCommands::clear_status() {
-  const std::uint8_t address = device_.address();
-  return {{silverlode::cis_request(address), {}},
-          {silverlode::pol_request(address), {}},
-          {silverlode::cpl_request(address, kAllPollingBits), {}},
-          {silverlode::pol_request(address), [this](const Outcome& outcome) -> Failure {
-             if (!outcome.accepted()) return device_.text(outcome);
-             status_.polling.raw = outcome.polling_status().value_or(0);
-             return std::nullopt;
-           }}};
+DriveCommands::Step DriveCommands::read_internal_status(CommandSequence::Check look) {
+  return {silverlode::ris_request(device_.address()), [this, look](const Outcome& outcome) -> Failure {
+            return outcome.accepted() ? look(outcome) : device_.text(outcome);
+          }};
+}
+
+DriveCommands::Step DriveCommands::read_faults() {
+  return read_polling_status([](const Outcome&) -> Failure { return std::nullopt; });
+}
+
+DriveCommands::Steps DriveCommands::require_no_fault() {
+  const auto look_at_polling = [this](const Outcome&) -> Failure {
+    const silverlode::PollingStatus status = status_.polling;
+    if (status.fault()) return "the drive reports: " + status.text();
+    if (status.raw != 0) sequence_.insert({{silverlode::cpl_request(device_.address(), status.raw), {}}});
+    status_.polling.raw = 0;
+    return std::nullopt;
+  };
+  const auto look_at_internal = [](const Outcome& outcome) -> Failure {
+    const silverlode::InternalStatus status{outcome.word().value_or(0)};
+    return status.fault() ? Failure("the drive reports: " + status.text()) : std::nullopt;
+  };
+  return {read_polling_status(look_at_polling), read_internal_status(look_at_internal)};
+}
+
+// Bits of the polling status word can be cleared once they have been read; CIS clears whatever is latched.
+DriveCommands::Steps DriveCommands::read_and_clear_status(SilverlodeFacts& facts) {
+  const auto clear_polling = [this, &facts](const Outcome&) -> Failure {
+    const silverlode::PollingStatus status = status_.polling;
+    facts.found_fault = status.fault() ? status.text() : std::string();
+    sequence_.insert({{silverlode::cpl_request(device_.address(), status.raw), {}}});
+    return std::nullopt;
+  };
+  const auto clear_internal = [this, &facts](const Outcome& outcome) -> Failure {
+    const silverlode::InternalStatus status{outcome.word().value_or(0)};
+    if (status.fault()) facts.found_fault += (facts.found_fault.empty() ? "" : "; ") + status.text();
+    sequence_.insert({{silverlode::cis_request(device_.address()), {}}});
+    return std::nullopt;
+  };
+  return {read_polling_status(clear_polling), read_internal_status(clear_internal)};
 }
 
 DriveCommands::Steps DriveCommands::error_limits() {
@@ -138,8 +167,8 @@ DriveCommands::Steps DriveCommands::bring_up(const Steps& queue, SilverlodeFacts
               await_rest(kLooksAtStop),
               {silverlode::dmd_request(device_.address()), {}},
               ask_revision(facts)};
-  append(steps, clear_status());
-  steps.push_back(check_no_fault());
+  append(steps, read_and_clear_status(facts));
+  append(steps, require_no_fault());
   append(steps, error_limits());
   append(steps, write_and_verify(device_, registers::kImsDeceleration, underrun_deceleration(),
                                  "deceleration when the queue runs dry"));
@@ -151,10 +180,10 @@ DriveCommands::Steps DriveCommands::bring_up(const Steps& queue, SilverlodeFacts
 
 DriveCommands::Steps DriveCommands::enable() {
   const std::uint8_t address = device_.address();
-  Steps steps = clear_status();
+  Steps steps = require_no_fault();
   steps.push_back({silverlode::ttp_request(address), {}});
   steps.push_back({silverlode::emd_request(address), {}});
-  steps.push_back(check_no_fault());
+  append(steps, require_no_fault());
   return steps;
 }
 

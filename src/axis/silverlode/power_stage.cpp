@@ -82,6 +82,9 @@ void SilverlodePowerStage::go_on(HostDuration away, HostTime now) {
 void SilverlodePowerStage::poll_stage(HostTime now) {
   switch (stage()) {
     case Stage::Configuring:
+      if (!facts_.found_fault.empty() && !sequence_.running()) note_found_fault(now);
+      if (sequence_done(now)) enter(Stage::Disabled, now);
+      return;
     case Stage::Disabling:
       if (sequence_done(now)) enter(Stage::Disabled, now);
       return;
@@ -147,14 +150,26 @@ void SilverlodePowerStage::enable(HostTime now) {
 }
 
 void SilverlodePowerStage::disable(HostTime now) {
-  if (state() != AxisState::Ready) return;
+  if (state() != AxisState::Ready) return AxisBase::disable(now);
   enter(Stage::Disabling, now);
   sequence_.start(commands_.disable(), now);
 }
 
+std::optional<bool> SilverlodePowerStage::switch_off(HostTime now) {
+  if (sequence_.state() == CommandSequence::State::Idle) sequence_.start(commands_.disable(), now);
+  if (sequence_.running()) return std::nullopt;
+  return sequence_.state() == CommandSequence::State::Done;
+}
+
 // Whatever has happened to it, the drive is set up anew: it may have lost its settings with its power.
 void SilverlodePowerStage::reset_fault(HostTime now) {
-  if (stage() == Stage::Fault || stage() == Stage::Offline) bring_up(now);
+  if (stage() == Stage::Fault || stage() == Stage::Offline || stage() == Stage::SwitchingOff) bring_up(now);
+}
+
+void SilverlodePowerStage::note_found_fault(HostTime now) {
+  notes().add({true, fmt::format("{}: found with a fault, which is cleared now: the drive reports: {}.",
+                                 who(), std::exchange(facts_.found_fault, {}))},
+              now);
 }
 
 // Watching.
@@ -173,7 +188,8 @@ void SilverlodePowerStage::look_at_drive(HostTime now) {
 
 HostDuration SilverlodePowerStage::look_period() const {
   if (player_->interpolates()) return parameters_.status_period;
-  const bool in_fault = stage() == Stage::Fault || stage() == Stage::FaultStopping;
+  const bool in_fault =
+      stage() == Stage::Fault || stage() == Stage::FaultStopping || stage() == Stage::SwitchingOff;
   return in_fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;
 }
 
@@ -199,7 +215,11 @@ void SilverlodePowerStage::press_stop(HostTime now) {
     heard_stop_ = outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused;
     return heard_stop_ ? std::nullopt : std::optional<std::string>(device_.text(outcome));
   };
-  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault)}, now);
+  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault), commands_.read_faults()}, now);
+}
+
+std::string SilverlodePowerStage::cause_text() const {
+  return status_.polling.fault() ? " It reports: " + status_.polling.text() + "." : std::string();
 }
 
 std::string SilverlodePowerStage::unseen_text() const {
@@ -220,7 +240,7 @@ void SilverlodePowerStage::drive_status(AxisStatus& out) const {
 
 std::string SilverlodePowerStage::state_text() const {
   if (stage() == Stage::FaultStopping) return "Stopping with a fault";
-  if (stage() == Stage::Fault || status_.polling.fault()) return "Fault";
+  if (stage() == Stage::Fault || stage() == Stage::SwitchingOff || status_.polling.fault()) return "Fault";
   if (stage() == Stage::Offline || stage() == Stage::Probing) return "Offline";
   if (player_->interpolates()) return "Interpolated motion";
   return enabled() ? "Driver enabled" : "Driver disabled";

@@ -20,7 +20,7 @@ constexpr HostDuration kFillTimeout = std::chrono::seconds(5);
 void SegmentLoader::begin(std::int32_t rest_counts, HostTime now) {
   rest_counts_ = rest_counts;
   cleared_ = false;
-  auto steps = stage_.commands().clear_status();
+  auto steps = stage_.commands().require_no_fault();
   for (auto& step : delivery_.clear_steps()) steps.push_back(std::move(step));
   steps.push_back(stage_.commands().read(registers::kImsDeceleration, deceleration_));
   steps.push_back(stage_.commands().read(registers::kTargetPosition, target_));

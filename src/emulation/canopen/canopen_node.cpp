@@ -9,6 +9,7 @@ namespace {
 constexpr std::uint32_t kNmt = 0x000;
 constexpr std::uint32_t kSync = 0x080;
 constexpr std::uint32_t kErrorControl = 0x700;
+constexpr std::uint32_t kTime = 0x100;  // 0x1012 as delivered
 
 constexpr std::uint16_t kConnectionError = 0x8130;
 constexpr std::uint16_t kPdoLengthError = 0x8210;
@@ -113,7 +114,7 @@ void CanopenNode::send_state(std::uint8_t state) {
 void CanopenNode::emergency(std::uint16_t code, std::uint8_t error_register, HostTime now) {
   if (!on()) return;
   now_ = std::max(now_, now);
-  emergencies_.raise(code, error_register, now_);
+  code == 0 ? emergencies_.reset(now_) : emergencies_.raise(code, error_register, now_);
 }
 
 void CanopenNode::on_frame(const canopen::Frame& frame, HostTime time) {
@@ -125,6 +126,7 @@ void CanopenNode::on_frame(const canopen::Frame& frame, HostTime time) {
     return;
   }
   if (frame.id > kErrorControl && frame.id <= kErrorControl + 127) return on_error_control(frame);
+  if (frame.id == kTime && !frame.remote) return clock_.start_over(now_);
   if (nmt_.operational()) on_pdo(frame);
 }
 

@@ -45,6 +45,12 @@ void MotionClock::forget_reference() {
   wanted_correction_ = correction_;
 }
 
+void MotionClock::start_over(HostTime when) {
+  forget_reference();
+  reference_ = -(crystal_.count(when) + correction_);
+  has_reference_ = true;
+}
+
 void MotionClock::latch(HostTime when) {
   latched_ = true;
   latched_count_ = crystal_.count(when);

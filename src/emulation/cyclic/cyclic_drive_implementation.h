@@ -21,6 +21,7 @@ class CyclicDrive::Implementation : public CanopenServo {
   CyclicCounters counters() const { return {updates_, emergencies(), lost_frames()}; }
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
   Plant& plant() override { return plant_; }
+  bool has_torque() const override { return on() && device_.power_stage(); }
   void fault(std::uint16_t code, std::uint8_t error_register, HostTime now) override;
 
  private:

@@ -86,8 +86,12 @@ void EposDrive::Implementation::heartbeat_heard() {
   reset_errors();
 }
 
+// A message is sent once for an error (CiA 301, 7.2.7): what goes on while the drive is in fault for it is
+// none.
 void EposDrive::Implementation::fault(std::uint16_t code, std::uint8_t error_register, HostTime now) {
-  if (!on()) return;
+  const bool faulty = device_.state() == DeviceState::Fault || device_.state() == DeviceState::FaultReaction;
+  if (!on() || (faulty && code == fault_code_)) return;
+  fault_code_ = code;
   emergency(code, error_register, now);
   stop_interpolation();
   device_.fault(option_codes(objects_));

@@ -24,6 +24,7 @@ class EposDrive::Implementation : public CanopenServo {
   EposCounters counters() const;
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
   Plant& plant() override { return plant_; }
+  bool has_torque() const override { return on() && device_.power_stage(); }
   void fault(std::uint16_t code, std::uint8_t error_register, HostTime now) override;
 
  private:
@@ -70,6 +71,7 @@ class EposDrive::Implementation : public CanopenServo {
   EposObjects objects_;
   std::optional<ObjectDictionary::Values> stored_;
   DeviceControl device_;
+  std::uint16_t fault_code_ = 0;  ///< of the EMCY message of the last fault
   InterpolatedPositionMode ip_;
   Plant plant_;
 

@@ -52,7 +52,7 @@ bool changes_limits(std::uint16_t index) {
 
 bool mode_exists(EposVariant variant, std::int64_t mode) {
   if (variant == EposVariant::Epos4) return mode == 1 || mode == 3 || mode == 6 || (mode >= 8 && mode <= 10);
-  return (mode >= -6 && mode <= -1) || mode == 1 || mode == 3 || (mode >= 6 && mode <= 8);
+  return (mode >= -6 && mode <= -1) || mode == 1 || mode == 3 || mode == 6 || mode == 7;
 }
 
 }  // namespace

@@ -6,9 +6,9 @@ namespace {
 // 0x1000: servo drive (2), device profile 402 (0x192).
 constexpr std::int64_t kDeviceType = 0x00020192;
 // 0x6502: profile position, profile velocity, homing and interpolated position mode (CiA 402 bits 0, 2, 5,
-// 6).
+// 6). EPOS4: cyclic synchronous position, velocity and torque in its place (bits 7, 8, 9).
 constexpr std::int64_t kModesWithInterpolation = 0x65;
-constexpr std::int64_t kModesWithoutInterpolation = 0x25;
+constexpr std::int64_t kModesWithoutInterpolation = 0x3A5;
 constexpr std::int64_t kBufferCapacity = 64;
 
 }  // namespace

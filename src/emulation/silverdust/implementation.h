@@ -33,6 +33,7 @@ class SilverDust::Implementation {
   SilverDustCounters counters() const;
   void set_sample_observer(SampleObserver observer) { observer_ = std::move(observer); }
   std::int32_t position() const { return axis_.reading(); }
+  bool has_torque() const { return awake_ && electronics_.enabled(); }
   void load_program(std::vector<ProgramStep> steps) { program_.load(std::move(steps)); }
   void stall(bool blocked) { axis_.set_stalled(blocked); }
 

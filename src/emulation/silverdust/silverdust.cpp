@@ -48,6 +48,8 @@ void SilverDust::set_sample_observer(SampleObserver observer) {
 
 std::int32_t SilverDust::position() const { return implementation_->position(); }
 
+bool SilverDust::has_torque() const { return implementation_->has_torque(); }
+
 void SilverDust::load_program(std::vector<ProgramStep> steps) {
   implementation_->load_program(std::move(steps));
 }

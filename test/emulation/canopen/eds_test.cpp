@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <set>
@@ -31,6 +33,11 @@ struct Kind {
 
 std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 
+std::string text_of(const std::map<std::string, std::string>& eds, const std::string& key) {
+  const auto found = eds.find(key);
+  return found == eds.end() ? std::string() : found->second;
+}
+
 /// An emulated drive and the EDS file that describes it.
 class Eds : public testing::TestWithParam<Kind> {
  protected:
@@ -52,13 +59,36 @@ TEST_P(Eds, EachObjectIsInTheEmulatorAsStated) {
     EXPECT_EQ(static_cast<unsigned>(entry.type), type);
     EXPECT_EQ(access_text(entry.access), eds.at("accesstype"));
     EXPECT_EQ(entry.mappable, eds.at("pdomapping") == "1");
-    EXPECT_EQ(entry.has_default, !eds.at("defaultvalue").empty());
-    EXPECT_EQ(entry.plus_node_id, eds.at("defaultvalue").find("$nodeid") == 0);
-    EXPECT_EQ(entry.initial, number(eds.at("defaultvalue"), type));
+    EXPECT_EQ(entry.has_default, eds.count("defaultvalue") == 1);
+    EXPECT_EQ(entry.plus_node_id, text_of(eds, "defaultvalue").find("$nodeid") == 0);
+    EXPECT_EQ(entry.initial, number(text_of(eds, "defaultvalue"), type));
     EXPECT_EQ(entry.has_range, eds.count("lowlimit") == 1);
     if (!entry.has_range) continue;
     EXPECT_EQ(entry.low, number(eds.at("lowlimit"), type));
     EXPECT_EQ(entry.high, number(eds.at("highlimit"), type));
+  }
+}
+
+// CiA 306: what is not known is left out, and an INTEGER is written with its sign. Programs that read the
+// file read 0xFFFF as 65535, and refuse it for a number of 16 bits.
+TEST_P(Eds, NumbersAreWrittenWithinTheirTypes) {
+  for (const auto& [object, eds] : objects_of(file)) {
+    const auto type = static_cast<unsigned>(std::stoul(eds.at("datatype"), nullptr, 0));
+    const int bits = bits_of(type);
+    for (const char* key : {"defaultvalue", "lowlimit", "highlimit"}) {
+      SCOPED_TRACE(testing::Message() << std::hex << object.first << ":" << object.second << " " << key);
+      if (eds.count(key) == 0) continue;
+      std::string text = eds.at(key);
+      ASSERT_FALSE(text.empty());
+      if (bits == 0) continue;
+      if (text.rfind("$nodeid+", 0) == 0) text = text.substr(8);
+      std::size_t read = 0;
+      const double value = static_cast<double>(std::stoll(text, &read, 0));
+      EXPECT_EQ(read, text.size());
+      const bool is_signed = type <= 4;
+      EXPECT_GE(value, is_signed ? -std::ldexp(1.0, bits - 1) : 0.0);
+      EXPECT_LT(value, std::ldexp(1.0, is_signed ? bits - 1 : bits));
+    }
   }
 }
 
@@ -103,7 +133,7 @@ TEST_P(Eds, DefaultsAndReadAccessHoldAtTheWire) {
     const Bytes r = host->exchange({0x40, key.first & 0xFF, key.first >> 8, key.second});
     ASSERT_EQ(r.size(), 8U);
     ASSERT_EQ(8 * (4 - ((r[0] >> 2) & 3)), bits_of(type));
-    if (eds.at("defaultvalue").empty()) continue;
+    if (eds.count("defaultvalue") == 0) continue;
     const bool of_node = eds.at("defaultvalue").find("$nodeid") == 0;
     const std::int64_t expected = number(eds.at("defaultvalue"), type) + (of_node ? 23 : 0);
     const std::uint32_t mask = 0xFFFFFFFFU >> (32 - bits_of(type));

@@ -94,6 +94,26 @@ TEST(MotionClock, FollowsTheMasterWhateverItsCrystal) {
   }
 }
 
+// "EPOS2 Interpolated Position Mode", 2008: TIME (0x100) sets the motion clock to zero, on which the master's
+// time stamps go on. A first stamp that is 50 us beside it is made good, since the clock's zero is known.
+TEST(MotionClock, TimeSetsItToZero) {
+  for (const int beside : {0, 50}) {
+    SCOPED_TRACE(beside);
+    Disciplined drive(with_clock(0.0));
+    drive.clock_at_start = 123456;
+    drive.cycles(300);
+    const std::size_t before = drive.samples.size() - 100;
+    drive.host.send(0x100, {0, 0, 0, 0, 0, 0});
+    drive.host.run(ms(1));
+    // TIME with 6 bytes takes some 100 bits to its end, 1 ms less than now.
+    drive.clock_at_start =
+        0U - static_cast<std::uint32_t>((drive.host.world.now() - ms(0.9)).time_since_epoch() /
+                                        std::chrono::microseconds(1));
+    drive.cycles(300, true, static_cast<std::uint32_t>(beside));
+    EXPECT_NEAR(drive.early(before, 3000), beside, 25.0);
+  }
+}
+
 TEST(MotionClock, WithoutTimeStampsTheCrystalRuns) {
   Disciplined drive(with_clock(100.0));
   drive.cycles(3000, false);

@@ -153,6 +153,20 @@ TEST(InterpolationSettings, OverflowWhileInactiveFollowsItsSetting) {
   }
 }
 
+// CiA 301, 7.2.7: one message for an error, and none as long as no new one occurs. The history keeps what was
+// before.
+TEST(InterpolationSettings, RecordsForAFullBufferAreOneError) {
+  WireHost host(stiff());
+  host.prepare();
+  host.drive->send_emergency(0x4210, 0x08, host.world.now());
+  for (int i = 0; i < 64 + 70; ++i) host.record(0, 0, 255);
+  host.run(ms(50));
+  EXPECT_EQ(host.count(0x081), 2U);
+  EXPECT_EQ(host.read(0x1003, 0) & 0xFFU, 2U);
+  EXPECT_EQ(host.read(0x1003, 1), 0xFF0CU);
+  EXPECT_EQ(host.read(0x1003, 2), 0x4210U);
+}
+
 TEST(InterpolationSettings, PositionLimitFaultsWithItsOwnCode) {
   for (const auto check : {PositionLimitCheck::RunTime, PositionLimitCheck::PerRecord}) {
     EposParameters parameters = stiff();

@@ -25,6 +25,7 @@ class StandstillDrive : public emulation::Drive, public transport::CanListener {
   HostTime next_event() const override { return kNever; }
   void process(HostTime) override {}
   std::int32_t position() const override { return position_; }
+  bool has_torque() const override { return operational_; }
   void observe(Observer observer) override { observer_ = std::move(observer); }
   void power_cycle(HostTime, HostDuration) override { operational_ = false; }
   void stall(bool) override {}

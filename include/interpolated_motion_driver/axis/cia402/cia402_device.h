@@ -25,6 +25,8 @@ class Cia402Device {
   virtual std::string description() const = 0;
   /// Identifies, verifies and configures the drive, of which nothing is known yet; to be run by `sequence`.
   virtual std::vector<SdoSequence::Step> bring_up_steps(SdoSequence& sequence) = 0;
+  /// What depends on where the drive stands when it is about to be enabled.
+  virtual std::vector<SdoSequence::Step> enable_steps() const = 0;
   /// Everything that the axis needs to be told once has been told after `since`.
   virtual bool has_reported(HostTime since) const = 0;
   /// The drive is configured and reports.

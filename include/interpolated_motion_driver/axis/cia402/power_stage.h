@@ -7,6 +7,7 @@
 #include "interpolated_motion_driver/axis/axis_base.h"
 #include "interpolated_motion_driver/axis/cia402/cia402_device.h"
 #include "interpolated_motion_driver/axis/cia402/controlword_link.h"
+#include "interpolated_motion_driver/axis/cia402/drive_errors.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_sequence.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
@@ -66,9 +67,9 @@ class Cia402PowerStage final : public AxisBase {
   void drop_work() override { sequence_.cancel(); }
   void press_stop(HostTime now) override;
   bool stands() const override;
+  std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
-  void collect_emergencies();
   void watch_heartbeat(HostTime now);
   void watch_power_stage(HostTime now);
   void poll_configuring(HostTime now);
@@ -97,8 +98,7 @@ class Cia402PowerStage final : public AxisBase {
   bool by_pdo_ = false;
   bool configured_ = false;
   bool silent_ = false;  ///< no heartbeat comes
-  std::uint16_t error_code_ = 0;
-  std::string error_text_;
+  DriveErrors errors_;
 };
 
 }  // namespace interpolated_motion::axis

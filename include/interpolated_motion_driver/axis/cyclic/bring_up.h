@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "interpolated_motion_driver/axis/cia402/sdo_sequence.h"
@@ -15,5 +16,9 @@ namespace interpolated_motion::axis {
 /// is there.
 std::vector<SdoSequence::Step> cyclic_bring_up_steps(const CyclicAxisParameters& parameters,
                                                      std::uint8_t node, cia402::Identity& identity);
+
+/// 0x607D, where the drive has it, for a joint that stands at `present` (rad), see `position_limits`.
+std::vector<SdoSequence::Step> cyclic_position_limit_steps(const CyclicAxisParameters& parameters,
+                                                           std::optional<double> present);
 
 }  // namespace interpolated_motion::axis

@@ -28,6 +28,7 @@ class CyclicDevice final : public Cia402Device {
 
   std::string description() const override;
   std::vector<SdoSequence::Step> bring_up_steps(SdoSequence& sequence) override;
+  std::vector<SdoSequence::Step> enable_steps() const override;
   bool has_reported(HostTime since) const override { return telemetry_.status_time > since; }
   void on_started() override { setpoints_.rest(telemetry_.position); }
   void on_mode_selected() override { setpoints_.restart(); }

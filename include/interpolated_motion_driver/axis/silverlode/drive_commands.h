@@ -15,6 +15,7 @@ namespace interpolated_motion::axis {
 struct SilverlodeFacts {
   std::string revision;        ///< the words of its answer to RVN
   bool multi_register = true;  ///< it tells several registers at once
+  std::string found_fault;     ///< what its status words told before they were cleared; empty without a fault
 };
 
 /// What is sent to a SilverLode drive for what, as steps for the sequence of its commands.
@@ -38,9 +39,11 @@ class DriveCommands {
   Steps enable();
   /// Switches the motor driver off (DMD).
   Steps disable();
-  /// Latched bits of both status words; those of the polling status word can be cleared once they have been
-  /// read.
-  Steps clear_status();
+  /// Reads both status words, whose bits are latched; a fault is a failure with its cause. Of the polling
+  /// status word, what has been read and is no fault is cleared.
+  Steps require_no_fault();
+  /// Reads the polling status word, whatever it says.
+  Step read_faults();
   /// Ends the interpolated motion on a ramp, on a whole count. Then as empty().
   Steps brake(const Steps& clear_queue, std::int32_t& rest);
   /// What is left in the queue of a drive that stands goes by `clear_queue`; where it stands, to `rest`,
@@ -63,7 +66,10 @@ class DriveCommands {
 
  private:
   Step ask_revision(SilverlodeFacts& facts);
-  Step check_no_fault();
+  Step read_polling_status(CommandSequence::Check look);
+  Step read_internal_status(CommandSequence::Check look);
+  /// Of a drive that is set up anew: what its status words say is read first, and a fault goes to `facts`.
+  Steps read_and_clear_status(SilverlodeFacts& facts);
   Step try_multi_register(SilverlodeFacts& facts);
   Step settle_on_a_count();
   Steps error_limits();

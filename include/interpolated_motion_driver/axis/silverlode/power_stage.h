@@ -76,8 +76,11 @@ class SilverlodePowerStage final : public AxisBase {
   void press_stop(HostTime now) override;
   bool stands() const override { return sequence_.state() == CommandSequence::State::Done; }
   bool obeys_stop() const override { return sequence_.running() && heard_stop_; }
+  std::string cause_text() const override;
+  std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
+  void note_found_fault(HostTime now);
   void look_at_drive(HostTime now);
   HostDuration look_period() const;
   std::string state_text() const;

@@ -22,6 +22,7 @@ class CanopenDrive : public Drive, public transport::CanListener {
   void on_can_frame(const canopen::Frame& frame, HostTime time) override;
 
   std::int32_t position() const override;
+  bool has_torque() const override;
 
   void power_cycle(HostTime now, HostDuration off) override;
   void stall(bool blocked) override;

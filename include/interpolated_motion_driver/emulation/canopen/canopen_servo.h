@@ -13,6 +13,8 @@ class CanopenServo : public CanopenNode {
  public:
   /// The axis.
   virtual Plant& plant() = 0;
+  /// The power stage is on.
+  virtual bool has_torque() const = 0;
   /// The drive finds an error: EMCY message with `code` (CiA 301) and bits for 0x1001, and fault reaction.
   virtual void fault(std::uint16_t code, std::uint8_t error_register, HostTime now) = 0;
 

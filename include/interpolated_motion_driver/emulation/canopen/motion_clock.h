@@ -48,6 +48,8 @@ class MotionClock {
 
   /// The next time stamp sets the reference.
   void forget_reference();
+  /// TIME at `when`: the clock reads 0, and the next time stamp is held against that.
+  void start_over(HostTime when);
   /// SYNC at `when`.
   void latch(HostTime when);
   /// 0x1013 has been written: the time of the last SYNC on the master's clock, us, modulo 2^32.

@@ -72,6 +72,7 @@ class SilverDust : public Drive, public transport::SerialListener {
   void set_sample_observer(SampleObserver observer);
 
   std::int32_t position() const override;
+  bool has_torque() const override;
 
   /// Stores a standalone program; RUN starts it.
   void load_program(std::vector<ProgramStep> steps);

@@ -1,8 +1,8 @@
-#include "interpolated_motion_driver/command_line/closest_name.h"
+#include "interpolated_motion_driver/units/closest_name.h"
 
 #include <algorithm>
 
-namespace interpolated_motion::command_line {
+namespace interpolated_motion {
 namespace {
 
 /// Letters to add, leave out, replace or exchange with their neighbour, until one word is the other.
@@ -36,4 +36,4 @@ std::string closest_name(const std::string& given, const std::vector<std::string
   return closest;
 }
 
-}  // namespace interpolated_motion::command_line
+}  // namespace interpolated_motion
