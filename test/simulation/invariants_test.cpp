@@ -160,6 +160,7 @@ TEST_F(WrongThing, PowerThatComesByItself) {
 }
 
 TEST_F(WrongThing, PowerAfterAnAnswerThatItIsOff) {
+  ledger.add_fault(at(-0.1), "elbow", "emcy 0x2310");
   enter(GroupState::Fault, 0.0);
   ledger.request(1, "disable", at(0.5));
   powers[0] = true;

@@ -159,8 +159,10 @@ TEST(InterpolationSettings, RecordsForAFullBufferAreOneError) {
   WireHost host(stiff());
   host.prepare();
   host.drive->send_emergency(0x4210, 0x08, host.world.now());
-  for (int i = 0; i < 64 + 70; ++i) host.record(0, 0, 255);
-  host.run(ms(50));
+  for (int i = 0; i < 64 + 70; ++i) {
+    host.record(0, 0, 255);
+    host.run(ms(0.2));
+  }
   EXPECT_EQ(host.count(0x081), 2U);
   EXPECT_EQ(host.read(0x1003, 0) & 0xFFU, 2U);
   EXPECT_EQ(host.read(0x1003, 1), 0xFF0CU);
