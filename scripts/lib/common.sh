@@ -2,8 +2,10 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-build=$root/build
+# The builds with sanitizers have folders of their own: scripts/test --sanitize, scripts/fuzz.
+build=${IMD_BUILD:-$root/build}
 devel=$root/devel
+[ "$build" = "$root/build" ] || devel=$build/devel
 export LC_ALL=C.UTF-8
 
 # ROS's Python modules belong to the system's Python; another python3 in front of it would not find them.

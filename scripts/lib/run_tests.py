@@ -1,4 +1,7 @@
-"""Runs the lints and every test that ctest knows, and counts the test cases: run_tests.py ROOT BUILD
+"""Runs the lints and every test that ctest knows, and counts the test cases: run_tests.py ROOT BUILD [address|thread]
+
+With the name of the sanitizer that BUILD was made with: no lints, and unit tests and node tests only. Every process that a sanitizer
+complains of counts as a failed case, whether or not its test has noticed.
 
 Each ctest test writes one JUnit XML file; its cases are counted from there. A program that crashed, was killed, wrote no result or ran
 no case counts as one failed case. The last line is "N passed, N failed".
@@ -11,6 +14,15 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+
+TIMEOUT = 600  # s, for a test program
+SANITIZED_TIMEOUT = 3000
+# Of a sanitized build. Not those that run in a kernel of their own, and what is no C++.
+SANITIZED_TESTS = ("-R", "_(gtest|rostest)_", "-E", "_gtest_(socketcan|packaging)_tests$")
+# They measure how long something takes, which a sanitizer multiplies by ten.
+MEASURING_TESTS = "PlannerInputs.FiveThousandPointsArePlannedInMilliseconds"
+LINES_OF_REPORT = 40
+SYMBOLIZER = "/usr/bin/llvm-symbolizer-14"  # of Debian's llvm-14
 
 LINTS = ("format", "includes", "classes", "catkin", "tidy")
 
@@ -72,9 +84,9 @@ class Tally:
         return f"{self.passed} passed, {len(self.failures)} failed{skipped}"
 
 
-def ctest_tests(build):
-    """{name: result file} of every test that is registered."""
-    listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=build, stdout=subprocess.PIPE, check=True, text=True).stdout
+def ctest_tests(build, selection=()):
+    """{name: result file} of every test that is registered, or selected by options of ctest."""
+    listing = subprocess.run(["ctest", "--show-only=json-v1", *selection], cwd=build, stdout=subprocess.PIPE, check=True, text=True).stdout
     tests = {}
     for test in json.loads(listing)["tests"]:
         command = test.get("command", [])
@@ -96,20 +108,49 @@ def remove_old(results):
                 inner.unlink()
 
 
-def run_ctest(build, tally):
-    tests = ctest_tests(build)
+def run_ctest(build, tally, selection=(), timeout=TIMEOUT):
+    tests = ctest_tests(build, selection)
     if not tests:
         tally.failures.append(("ctest", "no test is registered"))
         return
     remove_old(tests.values())
     failed_log = build / "Testing" / "Temporary" / "LastTestsFailed.log"
     failed_log.unlink(missing_ok=True)
-    status = subprocess.call(["ctest", "--output-on-failure", "--timeout", "600", "-j", str(os.cpu_count())], cwd=build)
+    status = subprocess.call(["ctest", "--output-on-failure", "--timeout", str(timeout), "-j", str(os.cpu_count()), *selection], cwd=build)
     failed = {line.split(":", 1)[1] for line in failed_log.read_text().splitlines()} if failed_log.exists() else set()
     for name, result in sorted(tests.items()):
         tally.add_result(readable(name), result, name not in failed)
     if status and not tally.failures:
         tally.failures.append(("ctest", f"exit status {status}"))
+
+
+def sanitizer_environment(root, reports):
+    """The variables that tell the sanitizers what to leave out, and to write what they find into files in `reports`: nobody reads what
+    the processes of a rostest print."""
+    suppressions = root / "test" / "sanitizers"
+    log = f"log_path={reports}/report"
+    return {"ASAN_OPTIONS": f"{log}:detect_leaks=1:detect_stack_use_after_return=1",
+            "UBSAN_OPTIONS": f"{log}:print_stacktrace=1",
+            "LSAN_OPTIONS": f"suppressions={suppressions}/leaks.txt:print_suppressions=0",
+            "TSAN_OPTIONS": f"{log}:suppressions={suppressions}/threads.txt:second_deadlock_stack=1:print_suppressions=0",
+            "GTEST_FILTER": f"-{MEASURING_TESTS}",
+            "ASAN_SYMBOLIZER_PATH": SYMBOLIZER, "TSAN_SYMBOLIZER_PATH": SYMBOLIZER}
+
+
+def add_reports(reports, tally):
+    for report in sorted(reports.glob("report.*")):
+        lines = report.read_text(errors="replace").splitlines()
+        tally.failures.append((f"sanitizer: {report}", "\n".join(lines[:LINES_OF_REPORT])))
+
+
+def run_sanitized(root, build, tally):
+    reports = build / "reports"
+    reports.mkdir(exist_ok=True)
+    for old in reports.glob("report.*"):
+        old.unlink()
+    os.environ.update(sanitizer_environment(root, reports))
+    run_ctest(build, tally, SANITIZED_TESTS, SANITIZED_TIMEOUT)
+    add_reports(reports, tally)
 
 
 def run_lints(root, tally):
@@ -124,9 +165,13 @@ def run_lints(root, tally):
 def main(arguments):
     root, build = Path(arguments[1]), Path(arguments[2])
     tally = Tally()
-    run_lints(root, tally)
-    print("\n== tests", flush=True)
-    run_ctest(build, tally)
+    if len(arguments) > 3:
+        print(f"\n== tests, with the sanitizer {arguments[3]}", flush=True)
+        run_sanitized(root, build, tally)
+    else:
+        run_lints(root, tally)
+        print("\n== tests", flush=True)
+        run_ctest(build, tally)
     print()
     for name, message in tally.failures:
         print(f"FAILED {name}\n    " + message.strip().replace("\n", "\n    "))

@@ -90,3 +90,11 @@ def test_results_of_an_earlier_run_are_removed_and_nothing_else(tmp_path, monkey
     run_tests.remove_old([old[0], old[1], results / "never-ran.xml", Path("no-result-file")])
     assert not any(file.exists() for file in old)
     assert all(file.exists() for file in kept)
+
+
+def test_what_a_sanitizer_complains_of_is_a_failure(tmp_path):
+    (tmp_path / "report.17").write_text("WARNING: ThreadSanitizer: data race\nmore")
+    tally = run_tests.Tally()
+    run_tests.add_reports(tmp_path, tally)
+    assert tally.closing_line() == "0 passed, 1 failed"
+    assert tally.failures[0][1].startswith("WARNING: ThreadSanitizer: data race")

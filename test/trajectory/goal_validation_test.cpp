@@ -99,6 +99,14 @@ TEST(GoalValidation, RefusesNumbersThatAreNone) {
   }
 }
 
+TEST(GoalValidation, RefusesPointsBeyondAnHour) {
+  Goal goal = good();
+  goal.points[1].time = GoalTime(3600);
+  EXPECT_FALSE(validate_goal(goal, kJoints, false));
+  goal.points[1].time = GoalTime(3601);
+  expect_refused(goal, GoalError::InvalidGoal, "", "time_from_start is 3601 s, allowed is 0 s to 3600 s");
+}
+
 TEST(GoalValidation, RefusesWrongTimes) {
   Goal goal = good();
   goal.points[1].time = GoalTime(0);

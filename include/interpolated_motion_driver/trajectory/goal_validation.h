@@ -20,8 +20,9 @@ inline constexpr double kLargestValue = 1e9;
 /// those of the parameters `constraints/...`.
 inline constexpr double kLargestTolerance = 1e6;
 
-/// Latest time of a point: the longest duration that a ROS message can carry.
-inline constexpr GoalTime kLatestTime{2147483647.0};
+/// Latest time of a point. A goal is planned as a whole before it is accepted, in a time that grows with its
+/// duration: an hour takes 0.4 s (EPOS2), 0.8 s (cyclic) or 2 s (SilverLode) a joint.
+inline constexpr GoalTime kLatestTime{3600.0};
 
 /// Stands for "the goal does not name this joint".
 inline constexpr std::size_t kNotNamed = static_cast<std::size_t>(-1);
