@@ -88,6 +88,7 @@ function(imd_add_stage_tests)
       imd_add_gtest(${stage}_tests "${sources}" imd_${stage})
     endif()
   endforeach()
+  imd_let_calls_fail(transport_tests)
 endfunction()
 
 # Target `benchmarks`: every bench/*_bench.cpp in one program, built on request only. They play the scenarios of the
