@@ -17,6 +17,7 @@ constexpr const char* kSynopsis =
     "simulate [--seeds N] [--start S] [--config KIND] [--no-shrink]\n"
     "simulate --replay SEED [--config KIND]\n"
     "simulate --script FILE\n"
+    "simulate --recording FILE\n"
     "Runs the whole driver with emulated drives in virtual time through random histories, one for each "
     "seed.\n";
 
@@ -44,6 +45,10 @@ command_line::OptionSet option_set(Given& given, Options& options) {
   set.add_switch("known", "the smallest script of each known fault too", options.tell_known);
   set.add_whole_number({"replay", "SEED", "one seed, told event by event"}, kSeeds, given.replay);
   set.add_text({"script", "FILE", "the same of a script as a failure prints it"}, options.script_file);
+  set.add_text({"recording", "FILE", "orders and faults of a flight recorder's recording, carried out again"},
+               options.recording_file);
+  set.add_text({"recordings", "FOLDER", "for recordings of failures, 20 at most (default: none are written)"},
+               options.recordings);
   set.add_switch("each", "tells of each seed, for scripts/simulate", options.each);
   return set;
 }

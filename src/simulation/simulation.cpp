@@ -55,6 +55,12 @@ const char* why_bad(GoalDefect defect) {
   return "";
 }
 
+Outcome thrown(const std::exception& error) {
+  Outcome outcome;
+  outcome.violation = {"no exception", 0.0, error.what()};
+  return outcome;
+}
+
 hardware::Configuration parse(const std::string& text) {
   return hardware::parse_configuration(YAML::Load(text), robot_description());
 }
@@ -81,6 +87,10 @@ Outcome Simulation::run() {
   outcome_.trace = trace_.hash();
   outcome_.seconds = seconds(now_ - HostTime{});
   return outcome_;
+}
+
+std::string Simulation::recording(const std::string& cause) const {
+  return recording::to_text(driver_->recording(), cause);
 }
 
 void Simulation::run_script() {
@@ -344,9 +354,18 @@ Outcome simulate(const Script& script, Trace::Listener listener) {
   try {
     return Simulation(script, std::move(listener)).run();
   } catch (const std::exception& error) {
-    Outcome outcome;
-    outcome.violation = {"no exception", 0.0, error.what()};
+    return thrown(error);
+  }
+}
+
+Outcome simulate_recorded(const Script& script, std::string& recording) {
+  try {
+    Simulation simulation(script);
+    const Outcome outcome = simulation.run();
+    recording = simulation.recording(outcome.violation ? outcome.violation->sentence : "no violation");
     return outcome;
+  } catch (const std::exception& error) {
+    return thrown(error);
   }
 }
 

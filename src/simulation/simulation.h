@@ -38,6 +38,8 @@ class Simulation {
 
   /// Carries the script out, then waits until all orders have ended and for a while at rest.
   Outcome run();
+  /// The last seconds of the driver, see docs/recording.md. `cause`: why it is wanted.
+  std::string recording(const std::string& cause) const;
 
  private:
   void run_script();
@@ -88,5 +90,7 @@ class Simulation {
 
 /// Runs `script`. Whatever is thrown is a violation of "no exception".
 Outcome simulate(const Script& script, Trace::Listener listener = {});
+/// The same, and the recording of it, empty where the driver did not take the configuration.
+Outcome simulate_recorded(const Script& script, std::string& recording);
 
 }  // namespace interpolated_motion::simulation

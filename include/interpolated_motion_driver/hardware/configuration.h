@@ -9,6 +9,7 @@
 #include "interpolated_motion_driver/hardware/bus_configuration.h"
 #include "interpolated_motion_driver/hardware/drive_configuration.h"
 #include "interpolated_motion_driver/hardware/drive_kinds.h"
+#include "interpolated_motion_driver/hardware/recorder_configuration.h"
 #include "interpolated_motion_driver/motion/setpoint.h"
 
 namespace interpolated_motion::hardware {
@@ -37,6 +38,10 @@ struct Configuration {
   double settle_timeout = 0.5;    ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;
   motion::StreamParameters setpoints;
+  RecorderConfiguration flight_recorder;
+  std::string
+      source;       ///< the parameters that all this was read from, YAML on one line, without the node's own
+  UrdfLimits urdf;  ///< the limits it was read with
 
   /// The bus of a drive. Throws std::invalid_argument that names the parameter when there is none of that
   /// name.
