@@ -8,6 +8,7 @@
 
 #include "interpolated_motion_driver/command_line/file_series.h"
 #include "interpolated_motion_driver/command_line/input_file.h"
+#include "simulation/fail_each_command.h"
 #include "simulation/options.h"
 #include "simulation/recording_command.h"
 #include "simulation/script_generator.h"
@@ -115,6 +116,7 @@ int run(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (!options.recording_file.empty()) return replay_recording(options.recording_file);
+  if (!options.fail_each.empty()) return run_fail_each(options);
   return options.replay ? replay_script(options) : run_seeds(options);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,12 +82,28 @@ Simulation::Simulation(const Script& script, Trace::Listener listener)
 Outcome Simulation::run() {
   try {
     run_script();
+  } catch (const std::bad_alloc&) {
+    end_for_want_of_memory();
   } catch (const std::exception& error) {
     judge({"no exception", script_time(), error.what()});
+  }
+  for (const motion::BusSnapshot& bus : snapshot_.buses) {
+    outcome_.sent[bus.name] = bus.frames_sent;
+    outcome_.received[bus.name] = bus.frames_received;
   }
   outcome_.trace = trace_.hash();
   outcome_.seconds = seconds(now_ - HostTime{});
   return outcome_;
+}
+
+/// The node's thread of the buses ends, and the process with it: nobody polls the driver any more, and its
+/// drives notice that.
+void Simulation::end_for_want_of_memory() {
+  say("out of memory: the host ends");
+  outcome_.out_of_memory = true;
+  ledger_.die(now_);
+  host_is_there_ = false;
+  wait_for_the_end();
 }
 
 std::string Simulation::recording(const std::string& cause) const {

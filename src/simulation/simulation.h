@@ -24,10 +24,13 @@ struct Outcome {
   std::optional<Violation> violation;      ///< the first that is no known fault: the simulation ends there
   std::map<std::string, Violation> known;  ///< the first of each known fault, by its name
   std::uint64_t trace = 0;                 ///< hash of all that happened
+  bool out_of_memory = false;              ///< an allocation has failed, and the host has ended with that
   double seconds = 0.0;                    ///< virtual time from the driver's start
   std::size_t goals_accepted = 0;
   std::size_t goals_refused = 0;
   std::size_t goals_succeeded = 0;
+  std::map<std::string, std::uint64_t> sent;      ///< frames or texts of the host, by bus
+  std::map<std::string, std::uint64_t> received;  ///< of others, by bus
 };
 
 /// The whole driver with its emulated drives in virtual time, and a script that happens to it.
@@ -43,6 +46,7 @@ class Simulation {
 
  private:
   void run_script();
+  void end_for_want_of_memory();
   void wait_until_ready();
   void wait_for_the_end();
   void run_for(double duration);

@@ -117,6 +117,13 @@ class VirtualSerialLine {
   /// The next `count` characters of a direction reach nobody but still take their time.
   void lose_next(SerialDirection direction, int count);
 
+  /// The `n`-th text of a direction from now on, up to its CR, reaches nobody; 0: none. A text under way
+  /// counts.
+  void lose_text(SerialDirection direction, int n);
+
+  /// The host's `n`-th send() from now on fails, as it does when its buffer is full; 0: none.
+  void refuse_nth(int n) { refuse_at_ = n; }
+
   /// The bits of `mask` are inverted in the next `count` characters of a direction.
   void garble_next(SerialDirection direction, int count, unsigned char mask = 0x55);
 
@@ -134,6 +141,7 @@ class VirtualSerialLine {
 
   struct Fault {
     int lose = 0;
+    int lose_text = 0;
     int garble = 0;
     unsigned char mask = 0;
   };
@@ -162,6 +170,7 @@ class VirtualSerialLine {
   std::uint64_t delivered_to_host_ = 0;
   std::uint64_t host_wakeups_ = 0;
   std::array<Fault, 2> faults_;
+  int refuse_at_ = 0;
   std::array<std::string, 2> texts_;
   TextObserver observer_;
   SerialLineStatistics statistics_;
