@@ -40,8 +40,8 @@ std::vector<Failure> failures_of(const Script& run);
 Script with_failure(const Script& run, const Failure& failure, std::uint64_t n);
 
 /// Fails every `stride`-th allocation of the driver in a run, from `first` on, after bring-up was begun;
-/// those that are not the driver's are passed over. `unnoticed` stays 0: the host ends with each. Its program
-/// must be linked with -rdynamic.
+/// those that are not the driver's are passed over. The host ends with each, but for one that can be done
+/// without. Its program must be linked with -rdynamic.
 FailEachTally fail_each_allocation(const Script& run, std::uint64_t first, std::uint64_t stride,
                                    const std::function<void(std::uint64_t n, const Outcome&)>& tell);
 
