@@ -10,10 +10,12 @@ function(imd_add_simulation)
   add_executable(simulate EXCLUDE_FROM_ALL ${main})
   set_target_properties(simulate PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_link_libraries(simulate PRIVATE imd_simulation)
+  set_target_properties(simulate PROPERTIES ENABLE_EXPORTS TRUE) # FailingAllocation reads names of functions
 endfunction()
 
 function(imd_add_simulation_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/simulation/*_test.cpp)
   imd_add_gtest(simulation_tests "${sources}" imd_simulation)
+  set_target_properties(simulation_tests PROPERTIES ENABLE_EXPORTS TRUE)
   add_dependencies(tests simulate)
 endfunction()

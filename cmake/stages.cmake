@@ -2,7 +2,8 @@
 # Sources are src/<stage>/**.cpp, tests are test/<stage>/**_test.cpp. command_line is no stage of the data, but built like one: what the
 # programs have in common, with ROS or without.
 
-set(IMD_STAGES units interpolation trajectory encoding protocol axis motion transport emulation hardware command_line)
+set(IMD_STAGES units interpolation trajectory encoding protocol axis motion recording transport emulation hardware
+               command_line)
 set(IMD_USES_units "")
 set(IMD_USES_interpolation "")
 set(IMD_USES_trajectory "")
@@ -10,9 +11,10 @@ set(IMD_USES_encoding trajectory interpolation)
 set(IMD_USES_protocol "")
 set(IMD_USES_axis encoding protocol)
 set(IMD_USES_motion axis trajectory)
+set(IMD_USES_recording motion protocol)
 set(IMD_USES_transport protocol)
 set(IMD_USES_emulation interpolation protocol transport)
-set(IMD_USES_hardware motion transport emulation units)
+set(IMD_USES_hardware motion recording transport emulation units)
 set(IMD_USES_command_line units)
 
 # Sets IMD_SOURCES_<stage>, and IMD_LIBRARIES to the stages that have a library to link: users before the used, as static
@@ -46,6 +48,7 @@ function(imd_add_stages)
       target_link_libraries(imd_${stage} ${scope} imd_${used})
     endforeach()
   endforeach()
+  target_link_libraries(imd_recording ${scope} yaml-cpp)
   target_include_directories(imd_hardware SYSTEM ${scope} ${urdfdom_INCLUDE_DIRS})
   target_link_libraries(imd_hardware ${scope} yaml-cpp ${urdfdom_LIBRARIES})
   target_include_directories(imd_command_line SYSTEM ${scope} ${Boost_INCLUDE_DIRS})
@@ -84,10 +87,14 @@ endmacro()
 function(imd_add_stage_tests)
   foreach(stage IN LISTS IMD_STAGES)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${stage}/*.cpp)
+    if(stage STREQUAL recording)
+      list(APPEND sources ${PROJECT_SOURCE_DIR}/test/protocol/allocation_count.cpp)
+    endif()
     if(sources)
       imd_add_gtest(${stage}_tests "${sources}" imd_${stage})
     endif()
   endforeach()
+  imd_let_calls_fail(transport_tests)
 endfunction()
 
 # Target `benchmarks`: every bench/*_bench.cpp in one program, built on request only. They play the scenarios of the

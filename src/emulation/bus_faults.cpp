@@ -24,6 +24,8 @@ std::vector<FaultCommand> faults_of(transport::VirtualCanBus& bus, HostTime now)
            [&bus](const Numbers& n) {
              drop_frames(bus, static_cast<std::uint32_t>(n[0]), static_cast<int>(n[1]));
            }},
+          {"drop_nth", {kFaultCount}, [&bus](const Numbers& n) { bus.drop_nth(static_cast<int>(n[0])); }},
+          {"refuse_nth", {kFaultCount}, [&bus](const Numbers& n) { bus.refuse_nth(static_cast<int>(n[0])); }},
           {"disconnect",
            {kFaultSwitch},
            [&bus, now](const Numbers& n) { bus.connect(kHostPort, n[0] == 0.0, now); }},
@@ -41,17 +43,24 @@ std::vector<FaultCommand> faults_of(transport::VirtualSerialLine& line, HostTime
   const auto garble = [&line](SerialDirection direction) {
     return [&line, direction](const Numbers& n) { line.garble_next(direction, static_cast<int>(n[0])); };
   };
+  const auto lose_text = [&line](SerialDirection direction) {
+    return [&line, direction](const Numbers& n) { line.lose_text(direction, static_cast<int>(n[0])); };
+  };
   const auto garbage = [&line, now](const std::string& text) {
     line.inject(SerialDirection::DriveToHost, text, now);
   };
-  return {{"lose_requests", {kFaultCount}, lose(SerialDirection::HostToDrive)},
-          {"lose_replies", {kFaultCount}, lose(SerialDirection::DriveToHost)},
-          {"garble_requests", {kFaultCount}, garble(SerialDirection::HostToDrive)},
-          {"garble_replies", {kFaultCount}, garble(SerialDirection::DriveToHost)},
-          {"garbage", {}, {}, garbage},
-          {"disconnect", {kFaultSwitch}, [&line, now](const Numbers& n) {
-             line.connect(kHostPort, n[0] == 0.0, now);
-           }}};
+  return {
+      {"lose_requests", {kFaultCount}, lose(SerialDirection::HostToDrive)},
+      {"lose_replies", {kFaultCount}, lose(SerialDirection::DriveToHost)},
+      {"garble_requests", {kFaultCount}, garble(SerialDirection::HostToDrive)},
+      {"garble_replies", {kFaultCount}, garble(SerialDirection::DriveToHost)},
+      {"lose_request", {kFaultCount}, lose_text(SerialDirection::HostToDrive)},
+      {"lose_reply", {kFaultCount}, lose_text(SerialDirection::DriveToHost)},
+      {"refuse_nth", {kFaultCount}, [&line](const Numbers& n) { line.refuse_nth(static_cast<int>(n[0])); }},
+      {"garbage", {}, {}, garbage},
+      {"disconnect", {kFaultSwitch}, [&line, now](const Numbers& n) {
+         line.connect(kHostPort, n[0] == 0.0, now);
+       }}};
 }
 
 }  // namespace interpolated_motion::emulation

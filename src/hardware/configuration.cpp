@@ -8,6 +8,7 @@
 #include "interpolated_motion_driver/hardware/configuration_checks.h"
 #include "interpolated_motion_driver/hardware/drive_kind.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
+#include "interpolated_motion_driver/recording/yaml_text.h"
 
 namespace interpolated_motion::hardware {
 
@@ -60,6 +61,15 @@ void refuse_nested(const ParameterReader& reader) {
   }
 }
 
+std::string source_of(const YAML::Node& parameters, const std::vector<std::string>& node_keys) {
+  YAML::Node own(YAML::NodeType::Map);
+  for (const auto& entry : parameters) {
+    const auto key = entry.first.as<std::string>();
+    if (std::find(node_keys.begin(), node_keys.end(), key) == node_keys.end()) own[key] = entry.second;
+  }
+  return recording::one_line(own);
+}
+
 void mark_isochronous_buses(Configuration& configuration) {
   for (const DriveConfiguration& drive : configuration.drives) {
     if (!drive.kind->follows_host_time()) continue;
@@ -107,6 +117,9 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
   c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);
   c.settle_timeout = reader.number("settle_timeout", c.settle_timeout, 0.0, 600.0);
   c.enable_on_start = reader.boolean("enable_on_start", c.enable_on_start);
+  c.flight_recorder = parse_flight_recorder(reader.map("flight_recorder"));
+  c.source = source_of(parameters, node_keys);
+  c.urdf = urdf;
   for (const std::string& key : node_keys) reader.ignore(key);
   reader.refuse_unknown();
   check_parts(configuration);

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/hardware/assembly.h"
+#include "interpolated_motion_driver/hardware/recorder_tap.h"
 #include "interpolated_motion_driver/motion/group.h"
+#include "interpolated_motion_driver/recording/yaml_text.h"
 
 namespace interpolated_motion::hardware {
 
@@ -19,6 +21,25 @@ namespace {
 constexpr double kLeadInCounts = 0.5;
 /// Shortest step of the loop: deadlines that lie closer together are served together.
 constexpr HostDuration kShortestStep = std::chrono::microseconds(50);
+
+/// As a recording calls it.
+const char* verb_of(motion::RequestKind kind) {
+  switch (kind) {
+    case motion::RequestKind::Enable:
+      return "enable";
+    case motion::RequestKind::Disable:
+      return "disable";
+    case motion::RequestKind::ShutDown:
+      return "shut_down";
+    case motion::RequestKind::ResetFaults:
+      return "reset";
+    case motion::RequestKind::Halt:
+      return "halt";
+    case motion::RequestKind::ClearBuffers:
+      break;
+  }
+  return "clear";
+}
 
 motion::GroupParameters group_parameters(const Configuration& configuration) {
   motion::GroupParameters parameters;
@@ -55,13 +76,14 @@ class MotionHardware::Implementation {
   HostTime next_deadline() const;
   void refresh_handles();
   std::optional<Refusal> take_commands(HostTime time);
+  motion::RequestId request(motion::RequestKind kind, HostTime time);
 
   HostTime now;
   Assembly assembly;
   std::optional<motion::Group> group;
   std::vector<JointHandle> handles;
   EventLog log;
-  WireObserver wire_observer;
+  RecorderTap tap;
 
  private:
   struct JointValues {
@@ -91,6 +113,7 @@ MotionHardware::Implementation::Implementation(const Configuration& configuratio
                                                EventLoop loop)
     : now(start),
       assembly(configuration, start, std::move(loop)),
+      tap(configuration, start),
       values_(configuration.drives.size()),
       write_period_(host_duration(configuration.setpoints.write_period.count())),
       unexpected_(assembly.links().size()) {
@@ -102,6 +125,7 @@ MotionHardware::Implementation::Implementation(const Configuration& configuratio
   for (const auto& axis : assembly.axes()) members.push_back(axis.get());
   std::vector<axis::StartSignal*> signals;
   for (const auto& link : assembly.links()) signals.push_back(link.get());
+  log.set_observer([this](const LogEntry& entry) { tap.log(now, entry); });
   group.emplace(group_parameters(configuration), std::move(members), std::move(signals), now);
 }
 
@@ -115,6 +139,7 @@ void MotionHardware::Implementation::update(HostTime until) {
       step(assembly.world().advance(next));
     } while (now < until);
   } else {
+    tap.note_call(std::max(now, next_deadline()), until);
     step(until);
   }
   refresh_handles();
@@ -123,13 +148,14 @@ void MotionHardware::Implementation::update(HostTime until) {
 void MotionHardware::Implementation::step(HostTime time) {
   now = time;
   for (const auto& link : assembly.links()) {
-    link->receive(wire_observer);
+    link->receive(tap.wire());
     link->follow_device(now, log);
     link->poll(now);
   }
   group->poll(now);
   take_notes();
   follow_group();
+  tap.look(now, *group, assembly.links());
   for (const auto& link : assembly.links()) link->send(now);
 }
 
@@ -151,6 +177,7 @@ void MotionHardware::Implementation::follow_group() {
   const motion::GroupState state = group->state();
   if (state == seen_state_) return;
   const motion::GroupState before = std::exchange(seen_state_, state);
+  tap.follow(now, before, *group);
   if (state == motion::GroupState::Moving) begin_audit();
   if (state == motion::GroupState::Idle || state == motion::GroupState::Stopping ||
       state == motion::GroupState::Fault)
@@ -219,7 +246,15 @@ std::optional<Refusal> MotionHardware::Implementation::take_commands(HostTime ti
     setpoint.joint_names.push_back(handles[i].name);
     setpoint.positions.push_back(values_[i].command);
   }
-  return group->setpoint(setpoint, time);
+  auto refusal = group->setpoint(setpoint, time);
+  tap.recorder().setpoint(time, setpoint, refusal);
+  return refusal;
+}
+
+motion::RequestId MotionHardware::Implementation::request(motion::RequestKind kind, HostTime time) {
+  const motion::RequestId id = group->request(kind, time);
+  tap.recorder().order(time, verb_of(kind), fmt::format("request: {}", id));
+  return id;
 }
 
 // The interface.
@@ -240,6 +275,8 @@ std::optional<Refusal> MotionHardware::write(HostTime now, HostDuration) {
 void MotionHardware::update(HostTime now) { implementation_->update(now); }
 
 void MotionHardware::stall(HostTime until) {
+  if (implementation_->assembly.emulates() && implementation_->now < until)
+    implementation_->tap.recorder().absence(implementation_->now, until);
   while (implementation_->assembly.emulates() && implementation_->now < until)
     implementation_->now = implementation_->assembly.world().advance(until);
 }
@@ -249,49 +286,56 @@ HostTime MotionHardware::next_deadline() const { return implementation_->next_de
 const std::vector<JointHandle>& MotionHardware::joints() const { return implementation_->handles; }
 
 Expected<motion::GoalAcceptance, Refusal> MotionHardware::submit(const trajectory::Goal& goal, HostTime now) {
-  return implementation_->group->submit(goal, now);
+  auto answer = implementation_->group->submit(goal, now);
+  implementation_->tap.recorder().goal(now, goal, answer);
+  return answer;
 }
 
-void MotionHardware::cancel(motion::GoalId goal, HostTime now) { implementation_->group->cancel(goal, now); }
+void MotionHardware::cancel(motion::GoalId goal, HostTime now) {
+  implementation_->tap.recorder().order(now, "cancel", fmt::format("goal: {}", goal));
+  implementation_->group->cancel(goal, now);
+}
 
 std::optional<motion::GoalResult> MotionHardware::take_goal_result() {
-  return implementation_->group->take_goal_result();
+  auto result = implementation_->group->take_goal_result();
+  if (result) implementation_->tap.recorder().ended(implementation_->now, *result);
+  return result;
 }
 
 std::optional<Refusal> MotionHardware::setpoint(const motion::Setpoint& setpoint, HostTime now) {
-  return implementation_->group->setpoint(setpoint, now);
+  auto refusal = implementation_->group->setpoint(setpoint, now);
+  implementation_->tap.recorder().setpoint(now, setpoint, refusal);
+  return refusal;
 }
 
 motion::RequestId MotionHardware::enable(bool on, HostTime now) {
-  return implementation_->group->request(on ? motion::RequestKind::Enable : motion::RequestKind::Disable,
-                                         now);
+  return implementation_->request(on ? motion::RequestKind::Enable : motion::RequestKind::Disable, now);
 }
 
 motion::RequestId MotionHardware::shut_down(HostTime now) {
-  return implementation_->group->request(motion::RequestKind::ShutDown, now);
+  return implementation_->request(motion::RequestKind::ShutDown, now);
 }
 
 motion::RequestId MotionHardware::reset_faults(HostTime now) {
-  return implementation_->group->request(motion::RequestKind::ResetFaults, now);
+  return implementation_->request(motion::RequestKind::ResetFaults, now);
 }
 
 motion::RequestId MotionHardware::halt(HostTime now) {
-  return implementation_->group->request(motion::RequestKind::Halt, now);
+  return implementation_->request(motion::RequestKind::Halt, now);
 }
 
 motion::RequestId MotionHardware::clear_buffers(HostTime now) {
-  return implementation_->group->request(motion::RequestKind::ClearBuffers, now);
+  return implementation_->request(motion::RequestKind::ClearBuffers, now);
 }
 
 std::optional<motion::RequestResult> MotionHardware::take_request_result() {
-  return implementation_->group->take_request_result();
+  auto result = implementation_->group->take_request_result();
+  if (result) implementation_->tap.recorder().ended(implementation_->now, *result);
+  return result;
 }
 
 void MotionHardware::snapshot(motion::Snapshot& out) const {
-  implementation_->group->snapshot(implementation_->now, out);
-  const auto& links = implementation_->assembly.links();
-  out.buses.resize(links.size());
-  for (std::size_t i = 0; i < links.size(); ++i) links[i]->snapshot(out.buses[i]);
+  take_snapshot(implementation_->now, *implementation_->group, implementation_->assembly.links(), out);
 }
 
 motion::MotionReport MotionHardware::report() const {
@@ -322,7 +366,11 @@ void MotionHardware::add_sample(std::size_t joint, const DemandSample& sample) {
 }
 
 void MotionHardware::set_wire_observer(WireObserver observer) {
-  implementation_->wire_observer = std::move(observer);
+  implementation_->tap.set_observer(std::move(observer));
+}
+
+recording::Recording MotionHardware::recording() const {
+  return implementation_->tap.recorder().recording(implementation_->now);
 }
 
 void MotionHardware::set_motion_observer(SampleObserver observer) {
@@ -344,6 +392,11 @@ std::optional<bool> MotionHardware::emulated_power(std::size_t joint) const {
 bool MotionHardware::inject(const std::string& target, const std::string& command, std::string* reason,
                             HostTime) {
   auto refused = implementation_->assembly.inject(target, command, implementation_->now);
+  implementation_->tap.recorder().order(
+      implementation_->now, "inject",
+      fmt::format("target: {}, command: {}, answer: {}", recording::in_quotes(target),
+                  recording::in_quotes(command),
+                  recording::in_quotes(refused ? "refused: " + *refused : "accepted")));
   if (refused) *reason = std::move(*refused);
   return !refused;
 }

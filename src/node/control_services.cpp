@@ -12,8 +12,9 @@ constexpr HostDuration kPatience = std::chrono::seconds(15);
 
 }  // namespace
 
-ControlServices::ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware)
-    : hardware_(hardware) {
+ControlServices::ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware,
+                                 const hardware::RecorderConfiguration& recorder)
+    : hardware_(hardware), recordings_(node, hardware, recorder) {
   enable_ = node.advertiseService("enable", &ControlServices::enable, this);
   reset_faults_ = advertise_trigger(node, "reset_faults",
                                     [](auto& drives, HostTime now) { return drives.reset_faults(now); });

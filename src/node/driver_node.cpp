@@ -48,7 +48,8 @@ DriverNode::DriverNode(const LoadedConfiguration& configuration)
       setpoints_(private_node(command_queue_), *hardware_),
       queries_(private_node(command_queue_), *hardware_, configuration.driver.joints,
                configuration.node.emulated_samples),
-      controls_(private_node(services_.queue()), private_node(halt_.queue()), *hardware_),
+      controls_(private_node(services_.queue()), private_node(halt_.queue()), *hardware_,
+                configuration.driver.flight_recorder),
       states_(private_node(publish_queue_), *hardware_),
       status_(private_node(publish_queue_), *hardware_),
       diagnostics_(private_node(publish_queue_), *hardware_, configuration.driver, wire_log_.get()),
@@ -150,6 +151,7 @@ int DriverNode::run(const volatile std::sig_atomic_t& stop) {
 
 int DriverNode::finish() {
   // New goals wait in the queue from here on; they are never taken.
+  controls_.finish_recordings();
   if (!failed_) hardware_->shut_down(kShutdownPatience);
   // What the bus thread has said last: results of goals that the stop has ended, or why it failed.
   command_queue_.callAvailable();

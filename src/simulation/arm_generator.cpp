@@ -7,8 +7,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "interpolated_motion_driver/hardware/configuration.h"
+#include "interpolated_motion_driver/recording/yaml_text.h"
 #include "simulation/arm.h"
-#include "simulation/yaml_line.h"
 
 namespace interpolated_motion::simulation {
 
@@ -183,7 +183,7 @@ const std::vector<std::string>& arm_kinds() {
 
 std::string random_arm(Random& random, const std::string& kind) {
   for (int i = 0; i < kAttempts; ++i) {
-    std::string text = yaml_line(draw(random, kind));
+    std::string text = recording::one_line(draw(random, kind));
     if (is_taken(text)) return text;
   }
   throw std::logic_error("no random arm of kind " + kind + " is taken by the driver");

@@ -1,15 +1,16 @@
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/command_line/file_series.h"
+#include "interpolated_motion_driver/command_line/input_file.h"
+#include "simulation/fail_each_command.h"
 #include "simulation/options.h"
+#include "simulation/recording_command.h"
 #include "simulation/script_generator.h"
 #include "simulation/shrinker.h"
 #include "simulation/simulation.h"
@@ -43,14 +44,26 @@ void tell_known(std::uint64_t seed, const Script& script, const Outcome& outcome
   }
 }
 
-void tell_failure(std::uint64_t seed, const Script& script, const Violation& violation, bool shrink) {
+constexpr int kRecordingsKept = 20;
+
+void write_recording(std::uint64_t seed, const std::string& recording, const std::string& folder) {
+  if (folder.empty() || recording.empty()) return;
+  const command_line::FileSeries files(folder, "simulation_", kRecordingsKept);
+  fmt::print("# recording of seed {}: {}\n", seed, files.write(recording));
+}
+
+void tell_failure(std::uint64_t seed, const Script& script, const Violation& violation,
+                  const Options& options) {
+  const bool shrink = options.shrink;
   fmt::print("seed {} FAILED: {}: at {:.3f} s: {}\n", seed, violation.invariant, violation.time,
              violation.sentence);
   const Script least = shrink ? smallest(script, violation.invariant) : script;
-  const Outcome again = simulate(least);
+  std::string recording;
+  const Outcome again = simulate_recorded(least, recording);
   if (shrink && again.violation)
     fmt::print("# {} of {} events are enough: at {:.3f} s: {}\n", least.events.size(), script.events.size(),
                again.violation->time, again.violation->sentence);
+  write_recording(seed, recording, options.recordings);
   fmt::print("{}\n", to_text(least));
 }
 
@@ -65,7 +78,7 @@ void run_seed(std::uint64_t seed, const Options& options, Tally& tally) {
   tell_known(seed, script, outcome, options);
   if (outcome.violation) {
     ++tally.failed;
-    tell_failure(seed, script, *outcome.violation, options.shrink);
+    tell_failure(seed, script, *outcome.violation, options);
   } else if (outcome.known.empty()) {
     ++tally.passed;
   } else {
@@ -81,17 +94,10 @@ int run_seeds(const Options& options) {
   return tally.failed == 0 ? 0 : 1;
 }
 
-std::string read_file(const std::string& name) {
-  std::ifstream file(name);
-  if (!file) throw std::invalid_argument("cannot read " + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-int replay(const Options& options) {
-  const Script script = options.script_file.empty() ? random_script(options.start, options.kind)
-                                                    : parse_script(read_file(options.script_file));
+int replay_script(const Options& options) {
+  const Script script = options.script_file.empty()
+                            ? random_script(options.start, options.kind)
+                            : parse_script(command_line::read_text_file(options.script_file));
   fmt::print("{}\n", to_text(script));
   const Outcome outcome =
       simulate(script, [](double time, const std::string& line) { fmt::print("{:9.3f}  {}\n", time, line); });
@@ -109,7 +115,9 @@ int run(const std::vector<std::string>& arguments) {
     fmt::print("{}", usage());
     return 0;
   }
-  return options.replay ? replay(options) : run_seeds(options);
+  if (!options.recording_file.empty()) return replay_recording(options.recording_file);
+  if (!options.fail_each.empty()) return run_fail_each(options);
+  return options.replay ? replay_script(options) : run_seeds(options);
 }
 
 }  // namespace

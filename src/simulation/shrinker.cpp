@@ -8,7 +8,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "simulation/yaml_line.h"
+#include "interpolated_motion_driver/recording/yaml_text.h"
 
 namespace interpolated_motion::simulation {
 
@@ -113,7 +113,7 @@ class Shrinker {
 
   bool keep_configuration(const YAML::Node& yaml) {
     Script candidate = best_;
-    candidate.configuration = yaml_line(yaml);
+    candidate.configuration = recording::one_line(yaml);
     return keep(candidate);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -55,6 +56,12 @@ const char* why_bad(GoalDefect defect) {
   return "";
 }
 
+Outcome thrown(const std::exception& error) {
+  Outcome outcome;
+  outcome.violation = {"no exception", 0.0, error.what()};
+  return outcome;
+}
+
 hardware::Configuration parse(const std::string& text) {
   return hardware::parse_configuration(YAML::Load(text), robot_description());
 }
@@ -77,12 +84,32 @@ Simulation::Simulation(const Script& script, Trace::Listener listener)
 Outcome Simulation::run() {
   try {
     run_script();
+  } catch (const std::bad_alloc&) {
+    end_for_want_of_memory();
   } catch (const std::exception& error) {
     judge({"no exception", script_time(), error.what()});
+  }
+  for (const motion::BusSnapshot& bus : snapshot_.buses) {
+    outcome_.sent[bus.name] = bus.frames_sent;
+    outcome_.received[bus.name] = bus.frames_received;
   }
   outcome_.trace = trace_.hash();
   outcome_.seconds = seconds(now_ - HostTime{});
   return outcome_;
+}
+
+/// The node's thread of the buses ends, and the process with it: nobody polls the driver any more, and its
+/// drives notice that.
+void Simulation::end_for_want_of_memory() {
+  say("out of memory: the host ends");
+  outcome_.out_of_memory = true;
+  ledger_.die(now_);
+  host_is_there_ = false;
+  wait_for_the_end();
+}
+
+std::string Simulation::recording(const std::string& cause) const {
+  return recording::to_text(driver_->recording(), cause);
 }
 
 void Simulation::run_script() {
@@ -348,9 +375,18 @@ Outcome simulate(const Script& script, Trace::Listener listener) {
   try {
     return Simulation(script, std::move(listener)).run();
   } catch (const std::exception& error) {
-    Outcome outcome;
-    outcome.violation = {"no exception", 0.0, error.what()};
+    return thrown(error);
+  }
+}
+
+Outcome simulate_recorded(const Script& script, std::string& recording) {
+  try {
+    Simulation simulation(script);
+    const Outcome outcome = simulation.run();
+    recording = simulation.recording(outcome.violation ? outcome.violation->sentence : "no violation");
     return outcome;
+  } catch (const std::exception& error) {
+    return thrown(error);
   }
 }
 

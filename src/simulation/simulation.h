@@ -24,10 +24,13 @@ struct Outcome {
   std::optional<Violation> violation;      ///< the first that is no known fault: the simulation ends there
   std::map<std::string, Violation> known;  ///< the first of each known fault, by its name
   std::uint64_t trace = 0;                 ///< hash of all that happened
+  bool out_of_memory = false;              ///< an allocation has failed, and the host has ended with that
   double seconds = 0.0;                    ///< virtual time from the driver's start
   std::size_t goals_accepted = 0;
   std::size_t goals_refused = 0;
   std::size_t goals_succeeded = 0;
+  std::map<std::string, std::uint64_t> sent;      ///< frames or texts of the host, by bus
+  std::map<std::string, std::uint64_t> received;  ///< of others, by bus
 };
 
 /// The whole driver with its emulated drives in virtual time, and a script that happens to it.
@@ -38,9 +41,12 @@ class Simulation {
 
   /// Carries the script out, then waits until all orders have ended and for a while at rest.
   Outcome run();
+  /// The last seconds of the driver, see docs/recording.md. `cause`: why it is wanted.
+  std::string recording(const std::string& cause) const;
 
  private:
   void run_script();
+  void end_for_want_of_memory();
   void wait_until_ready();
   void wait_for_the_end();
   void run_for(double duration);
@@ -89,5 +95,7 @@ class Simulation {
 
 /// Runs `script`. Whatever is thrown is a violation of "no exception".
 Outcome simulate(const Script& script, Trace::Listener listener = {});
+/// The same, and the recording of it, empty where the driver did not take the configuration.
+Outcome simulate_recorded(const Script& script, std::string& recording);
 
 }  // namespace interpolated_motion::simulation

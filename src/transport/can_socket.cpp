@@ -138,8 +138,14 @@ int open_socket() {
 
 CanSocket::CanSocket(boost::asio::io_context& io, int interface_index, const std::vector<Filter>& filters,
                      int receive_buffer, int send_buffer, bool own_frames)
-    : descriptor_(io, open_socket()) {
-  const int fd = descriptor_.native_handle();
+    : descriptor_(io) {
+  const int fd = open_socket();
+  boost::system::error_code refused;
+  descriptor_.assign(fd, refused);
+  if (refused) {
+    close(fd);
+    throw boost::system::system_error(refused, "epoll");
+  }
   set_options(fd, own_frames);
   set_filters(fd, filters);
   set_buffers(fd, receive_buffer, send_buffer);

@@ -61,9 +61,14 @@ class PseudoTerminal::Implementation {
   int near_end_ = -1;
 };
 
-PseudoTerminal::Implementation::Implementation(boost::asio::io_context& io, std::string link)
-    : far_end(io, open_far_end()) {
-  const int fd = far_end.native_handle();
+PseudoTerminal::Implementation::Implementation(boost::asio::io_context& io, std::string link) : far_end(io) {
+  const int fd = open_far_end();
+  boost::system::error_code refused;
+  far_end.assign(fd, refused);
+  if (refused) {
+    close(fd);
+    throw std::runtime_error("cannot wait for a pseudo-terminal: " + refused.message());
+  }
   std::array<char, 64> name{};
   if (grantpt(fd) != 0 || unlockpt(fd) != 0 || ptsname_r(fd, name.data(), name.size()) != 0) {
     fail("cannot set a pseudo-terminal up");

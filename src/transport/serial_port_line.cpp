@@ -76,7 +76,13 @@ void SerialPortLine::Implementation::open() {
     ::close(fd);
     return leave(error);
   }
-  port_.assign(fd);
+  boost::system::error_code error;  // the kernel may have no memory for one more descriptor to wait for
+  port_.assign(fd, error);
+  if (error) {
+    unlock_port(fd);
+    ::close(fd);
+    return leave(error.value());
+  }
   read_ = filled_ = 0;
   unsent.clear();
   changed = true;

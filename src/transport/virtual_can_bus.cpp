@@ -60,6 +60,7 @@ class VirtualCanBus::HostPort : public CanBus {
   explicit HostPort(VirtualCanBus& bus) : bus_(bus) {}
 
   bool send(const canopen::Frame& frame, HostTime now) override {
+    if (bus_.faults_.refuse_nth > 0 && --bus_.faults_.refuse_nth == 0) return false;
     if (now < bus_.host_off_until_) return false;
     return bus_.send(kHost, frame, now);
   }
@@ -160,14 +161,15 @@ void VirtualCanBus::end_frame() {
 }
 
 void VirtualCanBus::deliver(const canopen::Frame& frame, HostTime time) {
-  const bool dropped = drop_count_ > 0 || (drop_if_ && drop_if_(frame));
-  if (drop_count_ > 0) --drop_count_;
+  const bool is_nth = faults_.drop_nth > 0 && --faults_.drop_nth == 0;
+  const bool dropped = is_nth || faults_.drop > 0 || (faults_.drop_if && faults_.drop_if(frame));
+  if (faults_.drop > 0) --faults_.drop;
   if (dropped) {
     ++statistics_.lost;
     return;
   }
   canopen::Frame seen = frame;
-  if (tamper_) tamper_(seen);
+  if (faults_.tamper) faults_.tamper(seen);
   const std::size_t ports = ports_.size();
   for (std::size_t i = 0; i < ports; ++i) {
     const Port& port = ports_[i];

@@ -75,6 +75,7 @@ class VirtualSerialLine::HostPort : public SerialLine {
   explicit HostPort(VirtualSerialLine& line) : line_(line) {}
 
   bool send(std::string_view text, HostTime now) override {
+    if (line_.refuse_at_ > 0 && --line_.refuse_at_ == 0) return false;
     Talker& talker = line_.talkers_[kHost];
     const std::size_t capacity = line_.parameters_.host_buffer;
     if (!talker.connected || text.size() > capacity - std::min(capacity, talker.waiting.size())) return false;
@@ -270,6 +271,12 @@ void VirtualSerialLine::deliver_to_host(char value) {
 
 bool VirtualSerialLine::apply_fault(SerialDirection direction, char& value) {
   Fault& fault = faults_[index(direction)];
+  const bool in_lost_text = fault.lose_text == 1;
+  if (fault.lose_text > 0 && value == '\r') --fault.lose_text;
+  if (in_lost_text) {
+    ++statistics_.lost;
+    return false;
+  }
   if (fault.lose > 0) {
     --fault.lose;
     ++statistics_.lost;
@@ -295,6 +302,10 @@ void VirtualSerialLine::record(SerialDirection direction, char value) {
 
 void VirtualSerialLine::lose_next(SerialDirection direction, int count) {
   faults_[index(direction)].lose = count;
+}
+
+void VirtualSerialLine::lose_text(SerialDirection direction, int n) {
+  faults_[index(direction)].lose_text = n;
 }
 
 void VirtualSerialLine::garble_next(SerialDirection direction, int count, unsigned char mask) {

@@ -70,6 +70,16 @@ const BadConfiguration kBad[] = {
     {"FeedbackTimeoutWithinWhatASyncWaits",
      "{buses: {can0: {heartbeat_timeout: 2.0, sync_period: 0.01, feedback_timeout: 0.5}}}",
      {"buses/can0/feedback_timeout", "0.5", "0.52..60"}},
+    {"RecorderTooShort", "{flight_recorder: {seconds: 0.5}}", {"flight_recorder/seconds", "0.5", "1..600"}},
+    {"RecorderTooLarge",
+     "{flight_recorder: {megabytes: 2000}}",
+     {"flight_recorder/megabytes", "2000", "0.1..1024"}},
+    {"RecorderWritesSometimes",
+     "{flight_recorder: {write: sometimes}}",
+     {"flight_recorder/write", "sometimes", "on_fault, on_request, never"}},
+    {"RecorderWithoutAFolder", "{flight_recorder: {folder: ''}}", {"flight_recorder/folder", "empty"}},
+    {"RecorderKeepsNothing", "{flight_recorder: {keep: 0}}", {"flight_recorder/keep", "0", "1..1000"}},
+    {"RecorderUnknownKey", "{flight_recorder: {minutes: 1}}", {"flight_recorder/minutes", "unknown"}},
     {"HeartbeatTooTight", "{buses: {can0: {heartbeat_timeout: 0.1}}}", {"heartbeat_timeout", "1.5"}},
 };
 

@@ -53,6 +53,36 @@ class Faults(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
         self.expect_same(before, range(6))
 
+    def test_recordings(self):
+        """~dump_recording answers with a file; a fault makes another one by itself, and none is written over."""
+        answer = self.driver.trigger('dump_recording')
+        self.assertTrue(answer.success, answer.message)
+        with open(answer.message) as file:
+            first = file.read()
+        self.assertIn('version: 1', first)
+        self.assertIn(' wire can0 > ', first)
+        number = int(answer.message[-10:-4])
+        of_the_fault = '%s%06d.txt' % (answer.message[:-10], number + 1)
+        self.assertFalse(os.path.exists(of_the_fault))
+        self.start_long_goal()
+        self.driver.inject('joint3', 'emcy 0x%04X' % OVERTEMPERATURE)
+        self.expect_aborted('joint3')
+        standing = self.driver.wait_standstill()
+        deadline = time.monotonic() + PATIENCE
+        while not os.path.exists(of_the_fault) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(1.0)
+        with open(of_the_fault) as file:
+            text = file.read()
+        self.assertIn('cause: "fault: ', text)
+        self.assertIn(' -> fault: ', text)
+        self.assertIn(' order goal {', text)
+        self.assertIn('"emcy 0x%04X"' % OVERTEMPERATURE, text)
+        with open(answer.message) as file:
+            self.assertEqual(file.read(), first)
+        self.recover_without_motion(standing)
+        self.driver.go(JOINTS, ZERO, 3.0)
+
     def test_emergency(self):
         self.start_long_goal()
         answer = self.driver.inject('joint3', 'emcy 0x%04X' % OVERTEMPERATURE)

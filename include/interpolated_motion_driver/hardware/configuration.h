@@ -9,6 +9,7 @@
 #include "interpolated_motion_driver/hardware/bus_configuration.h"
 #include "interpolated_motion_driver/hardware/drive_configuration.h"
 #include "interpolated_motion_driver/hardware/drive_kinds.h"
+#include "interpolated_motion_driver/hardware/recorder_configuration.h"
 #include "interpolated_motion_driver/motion/setpoint.h"
 
 namespace interpolated_motion::hardware {
@@ -39,7 +40,11 @@ struct Configuration {
   double bring_up_timeout = 5.0;    ///< s for all drives to answer and be configured
   double settle_timeout = 0.5;      ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;      ///< power stages are switched on when all drives are configured
-  motion::StreamParameters setpoints;  ///< how streams of setpoints are followed
+  motion::StreamParameters setpoints;     ///< how streams of setpoints are followed
+  RecorderConfiguration flight_recorder;  ///< what is kept of the last seconds, and when it is written
+  /// The parameters that all this was read from, YAML on one line, without the node's own.
+  std::string source;
+  UrdfLimits urdf;  ///< the limits it was read with
 
   /// The bus of a drive. Throws std::invalid_argument that names the parameter when there is none of that
   /// name.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,7 +24,11 @@ class EventLog {
   void add(Severity severity, std::string text) {
     if (entries_.size() == kCapacity) entries_.pop_front();
     entries_.push_back({severity, std::move(text)});
+    if (observer_) observer_(entries_.back());
   }
+
+  /// `observer` is told of each sentence at once.
+  void set_observer(std::function<void(const LogEntry&)> observer) { observer_ = std::move(observer); }
 
   /// The oldest; empty when none waits.
   std::optional<LogEntry> take() {
@@ -36,6 +41,7 @@ class EventLog {
  private:
   static constexpr std::size_t kCapacity = 1000;
   std::deque<LogEntry> entries_;
+  std::function<void(const LogEntry&)> observer_;
 };
 
 }  // namespace interpolated_motion::hardware

@@ -12,6 +12,7 @@
 #include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
+#include "interpolated_motion_driver/recording/recording.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/units/expected.h"
 #include "interpolated_motion_driver/units/refusal.h"
@@ -96,6 +97,9 @@ class MotionHardware {
 
   /// `observer` sees everything that crosses any bus from now on.
   void set_wire_observer(WireObserver observer);
+
+  /// A copy of what the flight recorder has: the last seconds of everything, up to the last update().
+  recording::Recording recording() const;
 
   /// Samples of a drive that another program emulates, for the report of the last goal: forgets those there
   /// are, takes one more. `joint` is a number in joints(). For tests and demonstrations.

@@ -8,6 +8,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "interpolated_motion_driver/node/hardware_thread.h"
+#include "interpolated_motion_driver/node/recording_writer.h"
 
 namespace interpolated_motion::node {
 
@@ -18,7 +19,11 @@ class ControlServices {
  public:
   /// Advertises below the name of `node`. `~halt` is served by the queue of `halt_node`, the others by that
   /// of `node`; those who serve them must be free to wait. `hardware` must live longer.
-  ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware);
+  ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware,
+                  const hardware::RecorderConfiguration& recorder);
+
+  /// A recording of a fault that is not written yet is, while `hardware` still runs.
+  void finish_recordings() { recordings_.stop(); }
 
  private:
   using Start = std::function<motion::RequestId(HardwareThread::Hardware&, HostTime)>;
@@ -31,6 +36,7 @@ class ControlServices {
   ros::ServiceServer reset_faults_;
   ros::ServiceServer halt_;
   ros::ServiceServer clear_buffers_;
+  RecordingWriter recordings_;
 };
 
 }  // namespace interpolated_motion::node

@@ -88,13 +88,19 @@ class VirtualCanBus {
   const CanBusStatistics& statistics() const { return statistics_; }
 
   /// The next `count` frames reach nobody but still take their time and are confirmed to their sender.
-  void drop_next(int count) { drop_count_ = count; }
+  void drop_next(int count) { faults_.drop = count; }
+
+  /// The `n`-th frame from now on, the next one being the first, reaches nobody; 0: none.
+  void drop_nth(int n) { faults_.drop_nth = n; }
+
+  /// The host's `n`-th send() from now on fails, as it does when a queue is full; 0: none.
+  void refuse_nth(int n) { faults_.refuse_nth = n; }
 
   /// Frames for which `predicate` is true reach nobody. An empty function ends that.
-  void drop_if(Predicate predicate) { drop_if_ = std::move(predicate); }
+  void drop_if(Predicate predicate) { faults_.drop_if = std::move(predicate); }
 
   /// `tamper` may change each frame between its sender and its receivers. An empty function ends that.
-  void tamper(Tamper tamper) { tamper_ = std::move(tamper); }
+  void tamper(Tamper tamper) { faults_.tamper = std::move(tamper); }
 
   /// Plugs a port in or out (port 0: the host). A port that is out neither sends nor receives; what a node
   /// had queued is lost, what the host had queued stays in its queue, as in a socket.
@@ -106,6 +112,14 @@ class VirtualCanBus {
  private:
   struct Port;
   class HostPort;
+
+  struct Faults {
+    int drop = 0;        ///< so many of the next frames
+    int drop_nth = 0;    ///< the frame that comes in so many
+    int refuse_nth = 0;  ///< of the host
+    Predicate drop_if;
+    Tamper tamper;
+  };
 
   void start_frame(HostTime now);
   void end_frame();
@@ -130,9 +144,7 @@ class VirtualCanBus {
   std::vector<Port> ports_;
   std::unique_ptr<HostPort> host_;
   std::uint64_t delivered_to_host_ = 0;
-  int drop_count_ = 0;
-  Predicate drop_if_;
-  Tamper tamper_;
+  Faults faults_;
   CanBusStatistics statistics_;
   HostTime second_start_;
   std::int64_t second_busy_ = 0;

@@ -118,6 +118,13 @@ class VirtualSerialLine {
   /// The next `count` characters of a direction reach nobody but still take their time.
   void lose_next(SerialDirection direction, int count);
 
+  /// The `n`-th text of a direction from now on, up to its CR, reaches nobody; 0: none. A text under way
+  /// counts.
+  void lose_text(SerialDirection direction, int n);
+
+  /// The host's `n`-th send() from now on fails, as it does when its buffer is full; 0: none.
+  void refuse_nth(int n) { refuse_at_ = n; }
+
   /// The bits of `mask` are inverted in the next `count` characters of a direction.
   void garble_next(SerialDirection direction, int count, unsigned char mask = 0x55);
 
@@ -135,6 +142,7 @@ class VirtualSerialLine {
 
   struct Fault {
     int lose = 0;            ///< characters still to be taken away, see lose_next()
+    int lose_text = 0;       ///< texts still to be taken away whole
     int garble = 0;          ///< characters still to be spoilt, see garble_next()
     unsigned char mask = 0;  ///< bits that are inverted in those
   };
@@ -163,6 +171,7 @@ class VirtualSerialLine {
   std::uint64_t delivered_to_host_ = 0;
   std::uint64_t host_wakeups_ = 0;
   std::array<Fault, 2> faults_;
+  int refuse_at_ = 0;
   std::array<std::string, 2> texts_;
   TextObserver observer_;
   SerialLineStatistics statistics_;
