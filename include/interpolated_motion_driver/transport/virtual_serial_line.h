@@ -142,7 +142,7 @@ class VirtualSerialLine {
 
   struct Fault {
     int lose = 0;            ///< characters still to be taken away, see lose_next()
-    int lose_text = 0;       ///< texts still to be taken away whole
+    int lose_text = 0;       ///< which text from now on is taken away, 1: the next; 0: none
     int garble = 0;          ///< characters still to be spoilt, see garble_next()
     unsigned char mask = 0;  ///< bits that are inverted in those
   };
