@@ -143,7 +143,8 @@ TEST(BusFaults, HaveRangesToo) {
     EXPECT_TRUE(on_line(command)) << command;
   EXPECT_EQ(on_line("garbag").value(),
             "\"garbag\" is no fault; known: lose_requests COUNT, lose_replies COUNT, garble_requests COUNT, "
-            "garble_replies COUNT, garbage TEXT, disconnect 0|1");
+            "garble_replies COUNT, lose_request COUNT, lose_reply COUNT, refuse_nth COUNT, garbage TEXT, "
+            "disconnect 0|1");
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ constexpr double kTogether = 1e-3;
 constexpr std::size_t kJoints = 6;
 /// Of the arm of scenario.h: 4000 x 50 counts per revolution of the joint.
 constexpr double kCountsPerRadian = 200'000.0 / (2.0 * kPi);
-/// "@16 253 0 0" CR and "* 10" CR at 57600 baud, 11 bits each, and 2 ms in between: what each IMS takes.
-constexpr double kExchange = 17 * 11 / 57600.0 + 0.002;
+/// "@16 253 0 0" CR and "* 10" CR at 57600 baud, 11 bits each, and the 1 ms of an emulated drive in between:
+/// what each IMS takes at least.
+constexpr double kExchange = 17 * 11 / 57600.0 + 0.001;
 
 YAML::Node arm(const std::string& start, const std::string& changes = "") {
   YAML::Node yaml = six_axis_silverlode(changes);
