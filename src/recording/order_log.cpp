@@ -18,7 +18,7 @@ std::size_t bytes_of(const trajectory::Waypoint& point) {
 std::size_t bytes_of(const trajectory::Goal& goal) {
   std::size_t bytes = sizeof goal;
   for (const trajectory::Waypoint& point : goal.points) bytes += bytes_of(point);
-  for (const std::string& name : goal.joint_names) bytes += sizeof name + name.size();
+  for (const std::string& name : goal.joint_names) bytes += sizeof(std::string) + name.size();
   return bytes +
          (goal.path_tolerance.size() + goal.goal_tolerance.size()) * sizeof(trajectory::JointTolerance);
 }

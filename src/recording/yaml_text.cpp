@@ -69,10 +69,9 @@ std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    if (c >= ' ' && c <= '~') {
+    const bool is_utf8 = (static_cast<unsigned char>(c) & 0x80U) != 0;  // YAML's own encoding
+    if (is_utf8 || (c >= ' ' && c <= '~')) {
       out += c;
-    } else if ((static_cast<unsigned char>(c) & 0x80U) != 0) {
-      out += c;  // UTF-8 is YAML's own encoding
     } else {
       out += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
     }

@@ -5,16 +5,12 @@
 
 namespace interpolated_motion::trajectory {
 
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+using Numbers = std::numeric_limits<double>;
 
 PositionBounds::PositionBounds(const JointLimits& limits, double start)
     : slack_(limits.position_slack),
-      lower_limit_(limits.continuous ? -kInfinity : limits.min_position),
-      upper_limit_(limits.continuous ? kInfinity : limits.max_position),
+      lower_limit_(limits.continuous ? -Numbers::infinity() : limits.min_position),
+      upper_limit_(limits.continuous ? Numbers::infinity() : limits.max_position),
       lowest_allowed_(start < lower_limit_ - slack_ ? start : lower_limit_),
       highest_allowed_(start > upper_limit_ + slack_ ? start : upper_limit_) {}
 

@@ -80,7 +80,7 @@ DriveCommands::Step DriveCommands::await_rest(int looks_left) {
 }
 
 /// `look` is for a drive that has answered.
-DriveCommands::Step DriveCommands::read_polling_status(CommandSequence::Check look) {
+DriveCommands::Step DriveCommands::read_polling_status(const CommandSequence::Check& look) {
   return {silverlode::pol_request(device_.address()), [this, look](const Outcome& outcome) -> Failure {
             if (!outcome.accepted()) return device_.text(outcome);
             status_.polling.raw = outcome.polling_status().value_or(0);
@@ -88,7 +88,7 @@ DriveCommands::Step DriveCommands::read_polling_status(CommandSequence::Check lo
           }};
 }
 
-DriveCommands::Step DriveCommands::read_internal_status(CommandSequence::Check look) {
+DriveCommands::Step DriveCommands::read_internal_status(const CommandSequence::Check& look) {
   return {silverlode::ris_request(device_.address()), [this, look](const Outcome& outcome) -> Failure {
             return outcome.accepted() ? look(outcome) : device_.text(outcome);
           }};

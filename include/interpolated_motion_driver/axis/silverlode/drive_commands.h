@@ -66,8 +66,8 @@ class DriveCommands {
 
  private:
   Step ask_revision(SilverlodeFacts& facts);
-  Step read_polling_status(CommandSequence::Check look);
-  Step read_internal_status(CommandSequence::Check look);
+  Step read_polling_status(const CommandSequence::Check& look);
+  Step read_internal_status(const CommandSequence::Check& look);
   /// Of a drive that is set up anew: what its status words say is read first, and a fault goes to `facts`.
   Steps read_and_clear_status(SilverlodeFacts& facts);
   Step try_multi_register(SilverlodeFacts& facts);
