@@ -102,6 +102,7 @@ void check_stop_bits(const ParameterReader& reader, const BusConfiguration& bus)
 
 std::vector<std::uint32_t> values_of(const std::vector<std::pair<std::string, std::uint32_t>>& choices) {
   std::vector<std::uint32_t> values;
+  values.reserve(choices.size());
   for (const auto& [name, value] : choices) values.push_back(value);
   return values;
 }

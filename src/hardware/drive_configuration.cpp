@@ -40,7 +40,8 @@ double parse_velocity_limit(ParameterReader& reader, double urdf) {
                             "the joint a velocity limit in the URDF or here",
                             urdf));
   }
-  const double velocity = tightened(reader, "max_velocity", urdf > 0.0 ? urdf : kInfinity, true);
+  const double bound = urdf > 0.0 ? urdf : std::numeric_limits<double>::infinity();
+  const double velocity = tightened(reader, "max_velocity", bound, true);
   if (velocity > 0.0 && std::isfinite(velocity)) return velocity;
   reader.fail("max_velocity",
               fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "

@@ -382,7 +382,7 @@ Outcome simulate(const Script& script, Trace::Listener listener) {
 Outcome simulate_recorded(const Script& script, std::string& recording) {
   try {
     Simulation simulation(script);
-    const Outcome outcome = simulation.run();
+    Outcome outcome = simulation.run();
     recording = simulation.recording(outcome.violation ? outcome.violation->sentence : "no violation");
     return outcome;
   } catch (const std::exception& error) {
