@@ -186,7 +186,7 @@ def test_a_signal_ends_it_cleanly(start, signal_number):
 
 def test_wrong_arguments_are_explained(start):
     for arguments, reason in ((["--epos", "128"], '--epos: "128" is not a number within 1..127'),
-                              (["--epos", "1,1"], "node_id 1 is taken"),
+                              (["--epos", "1,1"], "--epos names 1 twice"),
                               ([], "either --epos 1,2,3 or --config FILE"),
                               (["--epos", "1,2,3", "--clock-error-ppm", "1,2"], "2 values for 3 drives"),
                               (["--fast"], "unknown argument --fast")):
