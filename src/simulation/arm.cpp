@@ -39,9 +39,10 @@ void read_kind(const YAML::Node& drive, const YAML::Node& bus, Joint& joint) {
   if (is_serial) joint.sample_period = read(drive, "tick", 0.00012);
   if (!is_cyclic) return;
   joint.sample_period = read(drive, "servo_period", 0.001);
+  joint.target_period = read(bus, "sync_period", 0.01);
   // Between two targets, linear and quadratic interpolation have steps of velocity and acceleration that no
   // host can avoid.
-  if (read(drive, "interpolation_order", 3) < 3) joint.difference = read(bus, "sync_period", 0.01);
+  if (read(drive, "interpolation_order", 3) < 3) joint.difference = joint.target_period;
 }
 
 Joint read_joint(const std::string& name, const YAML::Node& drive, const YAML::Node& buses) {

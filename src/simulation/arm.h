@@ -24,6 +24,7 @@ struct Joint {
   double difference =
       0.001;  ///< s, over which velocity and acceleration of its demand are held against limits
   double sample_period = 0.001;  ///< s, nominal, of the drive's demand
+  double target_period = 0.0;    ///< s, between target positions, which are whole counts; 0: it gets records
   double deviation_bound = 1.0;  ///< counts
 
   double position(double counts) const { return offset + counts / counts_per_radian; }  ///< rad

@@ -24,6 +24,16 @@ constexpr double kAfterStream = 1.5;  // s, in which an arm has come to rest beh
 constexpr double kAfterAbsence =
     0.5;  // s, in which the clocks of drives that follow SYNC are themselves again
 
+/// What rounding may add to an acceleration, counts/s^2. Target positions are half a count off at most, so
+/// the velocities of two cubics that meet differ by up to 8 counts / 3 periods (their fourth difference), and
+/// each bends by up to 2 counts / period^2.
+double rounding(const Joint& joint) {
+  const double of_bound = 2.0 * joint.deviation_bound / (kShortestRecord * kShortestRecord);
+  const double period = joint.target_period;
+  if (period <= 0.0) return of_bound;
+  return std::max(of_bound, 8.0 / (3.0 * period * joint.difference) + 2.0 / (period * period));
+}
+
 }  // namespace
 
 void Limits::check_position(const Joint& joint, const Sample& sample) {
@@ -45,8 +55,7 @@ void Limits::check_motion(const Joint& joint, const Track& before, const Track& 
   }
   if (before.known < 2) return;
   const double acceleration = (now.velocity - before.velocity) / (0.5 * (now.step + before.step));
-  const double most = joint.limit_margin * joint.max_acceleration +
-                      2.0 * joint.deviation_bound * joint.count() / (kShortestRecord * kShortestRecord);
+  const double most = joint.limit_margin * joint.max_acceleration + rounding(joint) * joint.count();
   if (std::abs(acceleration) <= most) return;
   fail(fmt::format("{}: its drive demands {:.3f} rad/s^2 while the group is {}{}, allowed {:.3f} (limit {})",
                    joint.label(), acceleration, motion::to_string(ledger().state()), circumstance(now.time),
