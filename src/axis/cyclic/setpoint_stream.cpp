@@ -85,11 +85,14 @@ SetpointStream::SetpointStream(const encoding::SetpointEncoding& encoding,
 void SetpointStream::rest(std::int32_t counts) {
   rest_ = counts;
   astray_ = false;
+  back_at_ = HostTime{};
 }
 
 void SetpointStream::follow(const trajectory::Path& path, HostTime begin) {
+  const trajectory::State there = path_.sample(goal_time(newest()));
   braking_ = false;
   lay(path, begin);
+  if (newest() < back_at_) bridge(there, newest());
 }
 
 void SetpointStream::lay(const trajectory::Path& path, HostTime begin) {
@@ -124,11 +127,17 @@ void SetpointStream::come_back(HostTime stamp) {
     const trajectory::Path before = even(there, now, encoding_.period);
     return lay(StopSearch(encoding_, limits_, before, now).stop(there), stamp);
   }
+  bridge(there, stamp);
+}
+
+void SetpointStream::bridge(const trajectory::State& there, HostTime stamp) {
   const auto back =
-      trajectory::rejoin(path_, there, now, limits_, kComeBackMargin, kShortestComeBack * encoding_.period,
-                         kLongestComeBack * encoding_.period);
+      trajectory::rejoin(path_, there, goal_time(stamp), limits_, kComeBackMargin,
+                         kShortestComeBack * encoding_.period, kLongestComeBack * encoding_.period);
   astray_ = !back;
-  if (back) lay(*back, stamp);
+  if (!back) return;
+  lay(*back, stamp);
+  back_at_ = stamp + host_duration(back->pieces().front().duration().count());
 }
 
 std::int32_t SetpointStream::target_at(HostTime stamp) const {

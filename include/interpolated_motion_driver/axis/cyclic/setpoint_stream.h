@@ -59,6 +59,7 @@ class SetpointStream {
   bool rests_at(GoalTime time) const;
   void lay(const trajectory::Path& path, HostTime begin);
   void come_back(HostTime stamp);
+  void bridge(const trajectory::State& there, HostTime stamp);
   std::int32_t target_at(HostTime stamp) const;
 
   encoding::SetpointEncoding encoding_;
@@ -69,6 +70,7 @@ class SetpointStream {
   std::optional<std::int32_t> rest_{0};
   bool braking_ = false;
   bool astray_ = false;
+  HostTime back_at_{};  ///< until then it is on its way back to the path
   SetpointHistory history_;
   std::int32_t counts_ = 0;
   std::uint64_t missed_ = 0;
