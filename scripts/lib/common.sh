@@ -11,7 +11,9 @@ export LC_ALL=C.UTF-8
 # ROS's Python modules belong to the system's Python; another python3 in front of it would not find them.
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
 
-say() { printf '\n== %s\n' "$*"; }
+# The next phase, and how long all before it has taken. Scripts that this one calls count on from the same moment.
+export IMD_BEGUN=${IMD_BEGUN:-$EPOCHSECONDS}
+say() { printf '\n== %s  [%d s]\n' "$*" $((EPOCHSECONDS - IMD_BEGUN)); }
 die() { printf '%s: %s\n' "$(basename "$0")" "$*" >&2; exit 1; }
 
 # ROS's own setup files read unset variables.
