@@ -17,7 +17,7 @@ namespace {
 /// counted.
 constexpr HostDuration kLatchTime = 2ms;
 /// Reports in a row that must contradict what was sent: one may be caught between two events.
-constexpr int kMismatches = 3;
+constexpr int kMismatches = 2;
 constexpr HostDuration kAskInterval = 50ms;
 
 }  // namespace

@@ -42,9 +42,17 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   return p;
 }
 
-/// Longest that a SYNC is put off: short enough that a drive which has fallen silent does not keep the others
-/// from reporting before its heartbeat is missed.
+/// Longest that a SYNC is put off while the last one is not on the bus: a bus that stands still for longer is
+/// told of by the heartbeats that are missed.
 HostDuration sync_patience(const MasterParameters& p) { return p.heartbeat_timeout / 4; }
+
+/// Longest that a SYNC is put off while answers to the last one are missing. Of a bus that is not overloaded
+/// they come within a period; where they do not come by then, a SYNC or an answer was lost, and without the
+/// next one the host knows nothing of any drive.
+HostDuration answer_patience(const MasterParameters& p) {
+  constexpr int kPeriods = 3;
+  return std::min(sync_patience(p), kPeriods * p.sync_period);
+}
 
 /// Time a bulk frame of the worst case takes at the share of the bus that bulk frames may use.
 HostDuration bulk_interval(const MasterParameters& p) {
@@ -95,7 +103,7 @@ void Master::queue_periodic_sync() {
 bool Master::waits_for_last_sync() {
   if (parameters_.isochronous) return false;
   if (syncs_since_confirmation_ > 0) return now_ - sync_given_ < sync_patience(parameters_);
-  const bool late = now_ - last_sync_time_ >= sync_patience(parameters_);
+  const bool late = now_ - last_sync_time_ >= answer_patience(parameters_);
   bool missing = false;
   for (NodeLink* node : in_order_) {
     if (late) node->sync_answers_.give_up();

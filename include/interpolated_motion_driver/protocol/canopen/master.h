@@ -64,8 +64,8 @@ struct UnexpectedFrames {
 /// that of the last SYNC; it is left out when the next SYNC is under way already.
 ///
 /// A periodic SYNC is left out while the one before is still on its way to the bus or an answer to it has not
-/// come (NodeLink::set_sync_answer), a quarter of `heartbeat_timeout` at most. So a bus that has stood still
-/// goes on with one SYNC, not with all those due meanwhile, and an answer that comes late, from a slow drive
+/// come (NodeLink::set_sync_answer): a quarter of `heartbeat_timeout` at most, three periods at most for an
+/// answer. So a bus that has stood still goes on with one SYNC, not with all those due meanwhile, and an answer that comes late, from a slow drive
 /// or over a full bus, is not taken for the answer to a later SYNC: it would put a drive's old position to a
 /// new instant.
 ///
