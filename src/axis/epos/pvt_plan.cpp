@@ -4,14 +4,30 @@
 #include <cmath>
 #include <utility>
 
+#include "interpolated_motion_driver/axis/epos/fifo_watch.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 
 namespace interpolated_motion::axis {
 
 namespace {
 
-/// Longest record of a stream, ms: a record is committed as a whole.
-constexpr std::int64_t kLongestRecord = 25;
+/// Longest record of a stream, ms: a record is committed as a whole. A prime number: were it in step with
+/// SYNC, each report of the fill could come while a record is on its way, and none would tell of one that was
+/// lost.
+constexpr std::int64_t kLongestRecord = 23;
+/// Reports of the fill within which a record that was lost is missed, even if a SYNC was lost with it: that
+/// one, two in which its answers are waited for, and two reports, of which one may be in doubt. A drive that
+/// is asked: four answers, one of which may be missed.
+constexpr int kReports = 6;
+constexpr int kAnswers = 4;
+
+/// s of motion kept ahead: a lost record is to be missed before the drive gets there.
+double horizon(const EposDevice& drive, double wanted) {
+  const HostDuration noticed = drive.facts().free_records_mapped
+                                   ? kReports * drive.master().parameters().sync_period
+                                   : kAnswers * kFifoAskInterval + drive.node().sdo().timeout();
+  return std::max(wanted, seconds(noticed));
+}
 
 encoding::PvtEncoding goal_encoding(const EposDevice& drive) {
   const EposAxisParameters& parameters = drive.parameters();
@@ -40,7 +56,7 @@ Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajecto
   if (!stream) return stream.error();
   PvtPlan plan;
   plan.wait = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
-  plan.feed.load(stream.value(), {drive.facts().capacity, drive.parameters().commit_horizon});
+  plan.feed.load(stream.value(), {drive.facts().capacity, horizon(drive, drive.parameters().commit_horizon)});
   plan.start = path.start_time();
   return plan;
 }
@@ -52,7 +68,7 @@ Expected<PvtPlan, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime o
   const auto stream = encoding::encode_pvt(standing, stream_encoding(drive), rest_counts);
   if (!stream) return stream.error();
   PvtPlan plan;
-  plan.feed.load(stream.value(), {drive.facts().capacity, drive.parameters().stream_horizon});
+  plan.feed.load(stream.value(), {drive.facts().capacity, horizon(drive, drive.parameters().stream_horizon)});
   plan.origin = origin;
   return plan;
 }
@@ -69,9 +85,10 @@ Expected<encoding::PvtStream, Refusal> plan_pvt_way_on(const EposDevice& drive, 
   return stream;
 }
 
-GoalTime pvt_stream_lead(const EposAxisParameters& parameters) {
+GoalTime pvt_stream_lead(const EposDevice& drive) {
   constexpr double kRecord = 1e-3 * kLongestRecord;
-  const double kept = std::max(parameters.stream_horizon, RecordFeed::kLeastAhead * kRecord);
+  const double kept =
+      std::max(horizon(drive, drive.parameters().stream_horizon), RecordFeed::kLeastAhead * kRecord);
   return GoalTime{kept + kRecord};
 }
 

@@ -50,8 +50,7 @@ HostDuration sync_patience(const MasterParameters& p) { return p.heartbeat_timeo
 /// they come within a period; where they do not come by then, a SYNC or an answer was lost, and without the
 /// next one the host knows nothing of any drive.
 HostDuration answer_patience(const MasterParameters& p) {
-  constexpr int kPeriods = 3;
-  return std::min(sync_patience(p), kPeriods * p.sync_period);
+  return std::min(sync_patience(p), 5 * p.sync_period / 2);  // the third one after it leaves
 }
 
 /// Time a bulk frame of the worst case takes at the share of the bus that bulk frames may use.

@@ -14,6 +14,9 @@
 
 namespace interpolated_motion::axis {
 
+/// How often a drive that cannot tell the fill of its FIFO by a PDO is asked for it.
+inline constexpr HostDuration kFifoAskInterval = std::chrono::milliseconds(50);
+
 /// Whether everything that was sent is in a drive's FIFO.
 ///
 /// What is in the FIFO is what was sent and not yet played. How far the drive has played is known within
@@ -47,11 +50,19 @@ class FifoWatch {
     bool contains(std::size_t used) const { return used >= least && used <= most; }
   };
 
-  FillRange expected_fill(HostTime when) const;
-  std::optional<std::string> compare(std::size_t used, HostTime when);
-  void learn_release(std::size_t used, HostTime when);
-  void learn_clock(std::size_t used, HostTime when);
-  void ask(HostTime now);
+  /// What a drive has told of its FIFO.
+  struct Fill {
+    std::size_t used = 0;  ///< records
+    HostTime from{};       ///< it was so at one instant between these two
+    HostTime until{};      ///< of a PDO the same
+  };
+
+  std::optional<Fill> reported();
+  std::optional<Fill> asked(HostTime now);
+  FillRange expected(const Fill& fill) const;
+  std::optional<std::string> compare(const Fill& fill);
+  void learn_release(const Fill& fill);
+  void learn_clock(const Fill& fill);
 
   EposDevice& drive_;
   SdoSequence& sequence_;
@@ -60,7 +71,9 @@ class FifoWatch {
   PlaybackClock& clock_;
   std::uint64_t reports_taken_ = 0;
   int mismatches_ = 0;
+  int taken_early_ = 0;  ///< reports in a row that say so, see learn_release()
   HostTime asked_{};
+  std::optional<std::uint32_t> answer_;  ///< records used, when the drive was asked last
   std::uint32_t lost_ = 0;
   std::uint32_t minimum_fill_ = 0;
 };

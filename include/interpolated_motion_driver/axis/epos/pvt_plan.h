@@ -35,6 +35,6 @@ Expected<encoding::PvtStream, Refusal> plan_pvt_way_on(const EposDevice& drive, 
                                                        const encoding::PvtKnot& knot);
 
 /// How far ahead of the present a stream is committed, at most.
-GoalTime pvt_stream_lead(const EposAxisParameters& parameters);
+GoalTime pvt_stream_lead(const EposDevice& drive);
 
 }  // namespace interpolated_motion::axis

@@ -49,7 +49,7 @@ class PvtPlayer final : public Player {
   void stop(HostTime now) override;
 
   std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
-  GoalTime stream_lead() const override { return pvt_stream_lead(drive_.parameters()); }
+  GoalTime stream_lead() const override { return pvt_stream_lead(drive_); }
   HostTime committed() const override;
   std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
   void follow() override;

@@ -65,9 +65,9 @@ struct UnexpectedFrames {
 ///
 /// A periodic SYNC is left out while the one before is still on its way to the bus or an answer to it has not
 /// come (NodeLink::set_sync_answer): a quarter of `heartbeat_timeout` at most, three periods at most for an
-/// answer. So a bus that has stood still goes on with one SYNC, not with all those due meanwhile, and an answer that comes late, from a slow drive
-/// or over a full bus, is not taken for the answer to a later SYNC: it would put a drive's old position to a
-/// new instant.
+/// answer. So a bus that has stood still goes on with one SYNC, not with all those due meanwhile, and an
+/// answer that comes late, from a slow drive or over a full bus, is not taken for the answer to a later SYNC:
+/// it would put a drive's old position to a new instant.
 ///
 /// An `isochronous` bus has drives that take one setpoint per SYNC and interpolate between two of them. A
 /// SYNC off its grid would make them take a setpoint at a wrong instant: there is none on request (the next
