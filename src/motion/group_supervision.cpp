@@ -8,6 +8,29 @@ namespace {
 
 trajectory::State without_acceleration(double position, double velocity) { return {position, velocity, 0.0}; }
 
+/// Longest that a joint is taken to go on as it did when it was heard last; after that it is where it was.
+constexpr HostDuration kHeardLately = std::chrono::milliseconds(100);
+
+/// A joint that brakes by itself, or that is not held: nobody demands anything else of it than what it does.
+trajectory::State as_it_goes(const axis::Axis& axis, HostTime when) {
+  const axis::AxisFeedback& feedback = axis.feedback();
+  const HostDuration since = when - feedback.time;
+  if (since > kHeardLately) return without_acceleration(feedback.position, 0.0);
+  return without_acceleration(feedback.position + seconds(since) * feedback.velocity, feedback.velocity);
+}
+
+/// Whether the drive is held at its rest position: it is enabled and plays nothing.
+bool is_held(const axis::Axis& axis) {
+  switch (axis.state()) {
+    case axis::AxisState::Ready:
+    case axis::AxisState::Loading:
+    case axis::AxisState::Loaded:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 // Desired and actual states belong to the instant at which each drive latched its position, on that drive's
@@ -48,8 +71,8 @@ HostTime Group::settle_deadline() const {
 trajectory::State Group::desired(std::size_t joint, HostTime when) const {
   const axis::Axis& axis = *axes_[joint];
   const trajectory::Path* path = path_in_force(joint);
-  return path != nullptr ? path->sample(axis.playback(when))
-                         : without_acceleration(axis.rest_position(), 0.0);
+  if (path != nullptr) return path->sample(axis.playback(when));
+  return is_held(axis) ? without_acceleration(axis.rest_position(), 0.0) : as_it_goes(axis, when);
 }
 
 /// What the drive of a joint is playing; null at rest.

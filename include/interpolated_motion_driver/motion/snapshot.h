@@ -17,8 +17,9 @@ struct JointSnapshot {
   std::string joint;  ///< in the order of the configuration, as all joints here
   std::string bus;    ///< as the configuration names it
 
-  trajectory::State
-      desired;  ///< the committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2)
+  /// The committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2). Of a joint that
+  /// brakes by itself, or that no drive holds: what it does.
+  trajectory::State desired;
   trajectory::State actual;  ///< as the drive reports; no acceleration
 
   bool online = false;           ///< the drive answers and its heartbeat arrives
