@@ -26,9 +26,11 @@ void Plant::set_stalled(bool stalled) {
   velocity_ = 0.0;
 }
 
-void Plant::follow(double demand) {
+// A position loop around a velocity loop: velocity' = ((demand - position) / lag + fed velocity - velocity) *
+// 4 / lag + fed acceleration. So feeding forward is the same as a demand that is ahead.
+void Plant::follow(double demand, double velocity, double acceleration) {
   const double before = demand_;
-  demand_ = demand + load_;
+  demand_ = demand + load_ + lag_ * velocity + 0.25 * lag_ * lag_ * acceleration;
   if (stalled_) return;
   const double slope = demand_ - before;
   if (lag_ <= 0.0) {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "interpolated_motion_driver/interpolation/cip_polynomial.h"
-#include "interpolated_motion_driver/interpolation/cip_time.h"
 #include "interpolated_motion_driver/interpolation/cubic_hermite.h"
+#include "interpolation/cip_time.h"
 
 namespace interpolated_motion::interpolation {
 

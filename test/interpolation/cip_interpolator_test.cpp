@@ -1,4 +1,4 @@
-#include "interpolated_motion_driver/interpolation/cip_interpolator.h"
+#include "interpolation/cip_interpolator.h"
 
 #include <gtest/gtest.h>
 

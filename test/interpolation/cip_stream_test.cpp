@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "interpolated_motion_driver/interpolation/cip_interpolator.h"
+#include "interpolation/cip_interpolator.h"
 
 // A 1 Hz sine of amplitude 1 commanded at 50 Hz, late and with losses. What is expected comes from the
 // remainder of polynomial interpolation: with nodes t_i, w(t) = prod (t - t_i) and M_n = (2 pi)^n = max

@@ -11,8 +11,9 @@ class Plant {
   /// At rest at `position` (qc).
   Plant(const PlantParameters& parameters, double position);
 
-  /// One millisecond under control; `demand` (qc) is that of its end.
-  void follow(double demand);
+  /// One millisecond under control; `demand` (qc) is that of its end. `velocity` (qc/ms) and `acceleration`
+  /// (qc/ms^2) are fed forward: of a demand that moves so the axis is not behind.
+  void follow(double demand, double velocity = 0.0, double acceleration = 0.0);
 
   /// The controller has been switched on or off: the axis stands, and a demand that follows starts here.
   void stand();

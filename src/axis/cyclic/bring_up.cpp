@@ -64,16 +64,59 @@ Steps cycle(const CyclicAxisParameters& p) {
           SdoSequence::write(sdo_write<std::int8_t>(object::kInterpolationTimeIndex, kMilliseconds))};
 }
 
-Steps pdos(const CyclicAxisParameters& p, std::uint8_t node) {
-  using canopen::pdo_disable;
-  using canopen::PdoDirection;
-  Steps steps = pdo(cyclic_pdo::target_rpdo(), node);
-  append(steps, pdo(cyclic_pdo::controlword_rpdo(), node));
+using canopen::pdo_disable;
+using canopen::PdoDirection;
+
+/// Steps that map `entry`, which a drive may lack or may not let be mapped: it goes on with `without` then.
+Steps unless_refused(Steps steps, const canopen::PdoEntry& entry, bool& taken, SdoSequence& sequence,
+                     const Steps& without) {
+  taken = true;
+  for (Step& step : steps) {
+    if (!step.write || step.write->value != entry.value()) continue;
+    step.check = [&taken, &sequence, without](const canopen::SdoResult& r) -> std::optional<std::string> {
+      if (r.ok) return std::nullopt;
+      if (!r.aborted_by_drive) return r.text();
+      taken = false;
+      sequence.replace_rest(without);
+      return std::nullopt;
+    };
+  }
+  return steps;
+}
+
+Steps no_torque_pdo(std::uint8_t node) {
+  return sdo_steps::writes({pdo_disable(PdoDirection::Rpdo, cyclic_pdo::kTorqueRpdo, node)});
+}
+
+Steps torque_pdo(const CyclicAxisParameters& p, std::uint8_t node, SdoSequence& sequence,
+                 CyclicFacts& facts) {
+  facts.takes_torque = false;
+  if (p.torque_per_acceleration == 0.0) return no_torque_pdo(node);
+  return unless_refused(pdo(cyclic_pdo::torque_rpdo(), node), cia402::pdo_entry::kTorqueOffset,
+                        facts.takes_torque, sequence, no_torque_pdo(node));
+}
+
+/// What goes to the drive before each SYNC. Must be the last steps of the sequence.
+Steps target_pdos(const CyclicAxisParameters& p, std::uint8_t node, SdoSequence& sequence,
+                  CyclicFacts& facts) {
+  const Steps torque = torque_pdo(p, node, sequence, facts);
+  Steps alone = pdo(cyclic_pdo::target_rpdo(false), node);
+  append(alone, torque);
+  facts.takes_velocity = false;
+  if (!p.velocity_feedforward) return alone;
+  Steps steps = unless_refused(pdo(cyclic_pdo::target_rpdo(true), node), cia402::pdo_entry::kVelocityOffset,
+                               facts.takes_velocity, sequence, alone);
+  append(steps, torque);
+  return steps;
+}
+
+Steps pdos(const CyclicAxisParameters& p, std::uint8_t node, SdoSequence& sequence, CyclicFacts& facts) {
+  Steps steps = pdo(cyclic_pdo::controlword_rpdo(), node);
   append(steps, pdo(cyclic_pdo::status_tpdo(), node));
   append(steps, pdo(cyclic_pdo::velocity_tpdo(p.sync_period), node));
   append(steps, pdo(cyclic_pdo::demand_tpdo(p.sync_period), node));
-  append(steps, writes({pdo_disable(PdoDirection::Rpdo, 3, node), pdo_disable(PdoDirection::Rpdo, 4, node),
-                        pdo_disable(PdoDirection::Tpdo, 4, node)}));
+  append(steps, writes({pdo_disable(PdoDirection::Rpdo, 4, node), pdo_disable(PdoDirection::Tpdo, 4, node)}));
+  append(steps, target_pdos(p, node, sequence, facts));
   return steps;
 }
 
@@ -88,13 +131,14 @@ std::vector<SdoSequence::Step> cyclic_position_limit_steps(const CyclicAxisParam
 }
 
 std::vector<SdoSequence::Step> cyclic_bring_up_steps(const CyclicAxisParameters& parameters,
-                                                     std::uint8_t node, cia402::Identity& identity) {
+                                                     std::uint8_t node, cia402::Identity& identity,
+                                                     SdoSequence& sequence, CyclicFacts& facts) {
   Steps steps = verification(identity);
   append(steps, supervision(parameters));
   append(steps, deceleration(parameters));
   append(steps, cyclic_position_limit_steps(parameters, std::nullopt));
   append(steps, cycle(parameters));
-  append(steps, pdos(parameters, node));
+  append(steps, pdos(parameters, node, sequence, facts));
   return steps;
 }
 

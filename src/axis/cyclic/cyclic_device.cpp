@@ -78,9 +78,9 @@ std::vector<SdoSequence::Step> CyclicDevice::enable_steps() const {
   return cyclic_position_limit_steps(parameters_, feedback_.position);
 }
 
-std::vector<SdoSequence::Step> CyclicDevice::bring_up_steps(SdoSequence&) {
+std::vector<SdoSequence::Step> CyclicDevice::bring_up_steps(SdoSequence& sequence) {
   identity_ = {};
-  return cyclic_bring_up_steps(parameters_, node_.id(), identity_);
+  return cyclic_bring_up_steps(parameters_, node_.id(), identity_, sequence, facts_);
 }
 
 // Until the power stage goes on, the target is where the axis is; then it stays there.

@@ -1,5 +1,9 @@
 #include "interpolated_motion_driver/axis/cyclic/setpoint_player.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/protocol/canopen/object.h"
@@ -20,6 +24,24 @@ constexpr GoalTime kHostMargin{0.005};
 constexpr std::size_t kJammed = 128;
 /// Longest that drives are known to ride out missing target positions, periods.
 constexpr int kRideThrough = 10;
+
+template <class Value>
+Value in_range(double value) {
+  constexpr double kLow = std::numeric_limits<Value>::min();
+  constexpr double kHigh = std::numeric_limits<Value>::max();
+  return static_cast<Value>(std::clamp(std::round(value), kLow, kHigh));
+}
+
+/// 0x60B1, in the unit of 0x606C.
+std::int32_t velocity_offset(const CyclicAxisParameters& p, double velocity) {
+  return in_range<std::int32_t>(p.transmission.counts_per_second(velocity) / p.velocity_unit);
+}
+
+/// 0x60B2, per mille of the rated torque, positive where counts go up.
+std::int16_t torque_offset(const CyclicAxisParameters& p, double acceleration) {
+  const double torque = p.torque_per_acceleration * acceleration;
+  return in_range<std::int16_t>(std::copysign(1.0, p.transmission.counts_per_radian()) * torque);
+}
 
 }  // namespace
 
@@ -105,10 +127,22 @@ void SetpointPlayer::send_target() {
   if (!stage_.wants_targets() || master.pending_control() > kJammed) return;
   const auto target = drive_.setpoints().next(master.next_sync_due());
   if (!target) return;
-  std::uint8_t data[4];
-  canopen::put_le(data, *target);
-  const bool taken = drive_.node().send_rpdo(cyclic_pdo::kTargetRpdo, data, sizeof(data));
-  ++(taken ? sent_ : refused_);
+  ++(send(*target) ? sent_ : refused_);
+}
+
+/// The torque first: the drive takes all of them at SYNC.
+bool SetpointPlayer::send(std::int32_t target) {
+  const trajectory::State motion = drive_.setpoints().newest_motion();
+  canopen::NodeLink& node = drive_.node();
+  if (drive_.facts().takes_torque) {
+    std::uint8_t torque[2];
+    canopen::put_le(torque, torque_offset(drive_.parameters(), motion.acceleration));
+    node.send_rpdo(cyclic_pdo::kTorqueRpdo, torque, sizeof(torque));
+  }
+  std::uint8_t data[8];
+  canopen::put_le(data, target);
+  canopen::put_le(data + 4, velocity_offset(drive_.parameters(), motion.velocity));
+  return node.send_rpdo(cyclic_pdo::kTargetRpdo, data, drive_.facts().takes_velocity ? 8 : 4);
 }
 
 // A goal's way.

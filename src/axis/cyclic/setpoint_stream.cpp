@@ -160,6 +160,12 @@ std::optional<std::int32_t> SetpointStream::next(HostTime sync) {
   return counts_;
 }
 
+trajectory::State SetpointStream::newest_motion() const {
+  if (astray_) return history_.at(newest(), encoding_.transmission);
+  const GoalTime time = goal_time(newest());
+  return rest_ || rests_at(time) ? trajectory::State{} : path_.sample(time);
+}
+
 bool SetpointStream::played(HostTime now) const {
   const GoalTime duration = path_.end_time() - path_.start_time();
   const HostTime end = begin_ + host_duration(duration.count()) + encoding_.order * period_;

@@ -39,8 +39,14 @@ int velocity_interval(HostDuration period) { return syncs_in(kVelocityPeriod, pe
 
 int demand_interval(HostDuration period) { return syncs_in(kDemandPeriod, period); }
 
-canopen::PdoConfiguration target_rpdo() {
-  return synchronous(PdoDirection::Rpdo, kTargetRpdo, {entry::kTargetPosition});
+canopen::PdoConfiguration target_rpdo(bool with_velocity_offset) {
+  std::vector<canopen::PdoEntry> entries{entry::kTargetPosition};
+  if (with_velocity_offset) entries.push_back(entry::kVelocityOffset);
+  return synchronous(PdoDirection::Rpdo, kTargetRpdo, std::move(entries));
+}
+
+canopen::PdoConfiguration torque_rpdo() {
+  return synchronous(PdoDirection::Rpdo, kTorqueRpdo, {entry::kTorqueOffset});
 }
 
 canopen::PdoConfiguration controlword_rpdo() {

@@ -88,6 +88,10 @@ void CyclicDrive::Implementation::written(const ObjectEntry& entry, std::int64_t
       return enter_mode();
     case 0x607A:
       return target_position(static_cast<std::int32_t>(value));
+    case 0x60B1:
+    case 0x60B2:
+      if (own_ms() == updated_ms_) feed_forward();
+      return;
     case 0x2100:
     case 0x60C2:
       return configure_interpolation();
@@ -108,6 +112,7 @@ void CyclicDrive::Implementation::controlword(std::uint16_t word) {
 void CyclicDrive::Implementation::enter_mode() {
   interpolation_.enter(demand_.position);
   following_error_ms_ = 0.0;
+  feeds_forward_ = false;
 }
 
 void CyclicDrive::Implementation::configure_interpolation() {
@@ -120,7 +125,17 @@ void CyclicDrive::Implementation::target_position(std::int32_t position) {
   // Where the axis stands by now: it may have been braking when the mode was entered.
   if (!interpolation_.following()) interpolation_.enter(demand_.position);
   interpolation_.update(position, own_ms());
+  updated_ms_ = own_ms();
+  feed_forward();
   ++updates_;
+}
+
+// Whichever comes first at a SYNC, offset or target position: they belong together.
+void CyclicDrive::Implementation::feed_forward() {
+  const double velocity = static_cast<double>(object(0x60B1, 0)) * parameters_.velocity_unit;
+  const auto torque = static_cast<double>(object(0x60B2, 0));
+  feeds_forward_ = feeds_forward_ || velocity != 0.0;
+  interpolation_.feed_forward(velocity * 1e-3, torque);
 }
 
 std::uint16_t CyclicDrive::Implementation::statusword() const {

@@ -35,6 +35,7 @@ class CyclicDrive::Implementation : public CanopenServo {
 
   void controlword(std::uint16_t word);
   void target_position(std::int32_t position);
+  void feed_forward();
   void configure_interpolation();
   void enter_mode();
   std::uint16_t statusword() const;
@@ -61,6 +62,10 @@ class CyclicDrive::Implementation : public CanopenServo {
   bool following_error_ = false;
   std::uint16_t error_code_ = 0;
   std::uint64_t updates_ = 0;
+  double updated_ms_ = -1.0;       // when the newest target position was taken, own clock
+  double fed_velocity_ = 0.0;      // counts/ms
+  double fed_acceleration_ = 0.0;  // counts/ms^2
+  bool feeds_forward_ = false;     // a velocity has come with a target position since the mode was entered
   SampleObserver observer_;
 };
 

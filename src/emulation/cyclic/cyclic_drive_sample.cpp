@@ -30,6 +30,7 @@ void CyclicDrive::Implementation::sample() {
 
 void CyclicDrive::Implementation::move() {
   following_error_ = false;
+  fed_velocity_ = fed_acceleration_ = 0.0;
   if (!device_.power_stage()) {
     plant_.stand();
     demand_ = {plant_.position(), 0.0, 0.0};
@@ -43,7 +44,7 @@ void CyclicDrive::Implementation::move() {
   } else {
     slow_down(ramp(StopRamp::Profile));
   }
-  plant_.follow(demand_.position);
+  plant_.follow(demand_.position, fed_velocity_ * servo_ms_, fed_acceleration_ * servo_ms_ * servo_ms_);
   check_following_error();
 }
 
@@ -53,6 +54,9 @@ void CyclicDrive::Implementation::interpolate() {
     return slow_down(ramp(device_.ramp()));
   }
   demand_ = interpolation_.at(own_ms());
+  constexpr double kPerMs = 1e-6;  // counts/s^2 to counts/ms^2
+  fed_velocity_ = interpolation_.velocity_at(own_ms());
+  fed_acceleration_ = interpolation_.torque_at(own_ms()) * parameters_.acceleration_per_torque * kPerMs;
 }
 
 double CyclicDrive::Implementation::ramp(StopRamp stop) const {
@@ -72,6 +76,8 @@ void CyclicDrive::Implementation::slow_down(double deceleration) {
   const bool stands = to_rest <= servo_ms_;
   demand_.velocity = stands ? 0.0 : direction * (speed - deceleration * servo_ms_);
   demand_.acceleration = stands ? 0.0 : -direction * deceleration;
+  // A drive that is fed forward feeds its own ramps forward too.
+  if (feeds_forward_) fed_velocity_ = demand_.velocity;
 }
 
 void CyclicDrive::Implementation::check_following_error() {

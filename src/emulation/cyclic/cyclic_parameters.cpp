@@ -41,6 +41,9 @@ void validate(const CyclicParameters& p) {
   require(p.interpolation_order >= 1 && p.interpolation_order <= 3, p, "interpolation_order",
           p.interpolation_order, "1..3");
   require(p.ride_through >= 0 && p.ride_through <= 100, p, "ride_through", p.ride_through, "0..100");
+  require(p.velocity_unit > 0.0, p, "velocity_unit", p.velocity_unit, "above 0");
+  require(p.acceleration_per_torque >= 0.0, p, "acceleration_per_torque", p.acceleration_per_torque,
+          "0 or more");
   require(p.plant.lag_ms >= 0.0, p, "plant.lag_ms", p.plant.lag_ms, "0 or more");
 }
 

@@ -25,6 +25,10 @@ void parse_emulated(ParameterReader& reader, const DriveConfiguration& drive, Cy
       static_cast<int>(reader.integer("interpolation_order", settings.interpolation_order, 1, 3));
   emulated.ride_through = static_cast<int>(reader.integer("ride_through", emulated.ride_through, 0, 100));
   emulated.plant.lag_ms = reader.number("lag_ms", emulated.plant.lag_ms, 0.0, 1000.0);
+  emulated.takes_offsets = reader.boolean("takes_offsets", emulated.takes_offsets);
+  emulated.acceleration_per_torque =
+      reader.number("acceleration_per_torque", emulated.acceleration_per_torque, 0.0, 1e12);
+  emulated.velocity_unit = settings.velocity_unit;
   emulated.plant.load_counts = reader.number("load_counts", emulated.plant.load_counts, -1e6, 1e6);
 }
 
@@ -44,6 +48,9 @@ std::shared_ptr<const CyclicSettings> parse_cyclic(ParameterReader& reader, Para
   cyclic.servo_period = reader.number("servo_period", cyclic.servo_period, 100e-6, 10e-3);
   cyclic.velocity_unit = reader.number("velocity_unit", cyclic.velocity_unit, 1e-6, 1e9);
   cyclic.acceleration_unit = reader.number("acceleration_unit", cyclic.acceleration_unit, 1e-6, 1e9);
+  cyclic.velocity_feedforward = reader.boolean("velocity_feedforward", cyclic.velocity_feedforward);
+  cyclic.torque_per_acceleration =
+      reader.number("torque_per_acceleration", cyclic.torque_per_acceleration, 0.0, 1e6);
   parse_emulated(emulation, drive, cyclic);
   return settings;
 }

@@ -23,7 +23,7 @@ class CyclicKind : public CanDriveKind {
   /// Target position, status, and the slower reports by their share.
   double bits_per_sync(const BusConfiguration& bus) const override {
     const HostDuration period = host_duration(bus.sync_period);
-    return longest_frame_bits(4) + longest_frame_bits(7) +
+    return longest_frame_bits(8) + longest_frame_bits(2) + longest_frame_bits(7) +
            longest_frame_bits(8) / axis::cyclic_pdo::velocity_interval(period) +
            longest_frame_bits(4) / axis::cyclic_pdo::demand_interval(period);
   }
@@ -50,6 +50,8 @@ class CyclicKind : public CanDriveKind {
     parameters.servo_period = settings.servo_period;
     parameters.velocity_unit = settings.velocity_unit;
     parameters.acceleration_unit = settings.acceleration_unit;
+    parameters.velocity_feedforward = settings.velocity_feedforward;
+    parameters.torque_per_acceleration = settings.torque_per_acceleration;
     canopen::NodeLink& node = link.master().add_node(static_cast<std::uint8_t>(drive.number));
     return std::make_unique<axis::CyclicAxis>(parameters, link.master(), node);
   }

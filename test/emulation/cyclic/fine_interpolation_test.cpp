@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "interpolated_motion_driver/interpolation/cip_interpolator.h"
+#include "interpolation/cip_interpolator.h"
 
 // The drive's evaluation (Neville, in ms) against the driver's (Newton's coefficients, in s): two ways to the
 // same polynomials.
@@ -58,6 +58,27 @@ TEST(FineInterpolation, AgreesWithTheDriversInterpolator) {
     EXPECT_GT(lost, 40);
     EXPECT_GE(drive.missed_in_all(), static_cast<std::uint32_t>(lost) - 5U);
     EXPECT_LE(drive.missed_in_all(), static_cast<std::uint32_t>(lost));
+  }
+}
+
+// Against the coefficients as the document prints them, with the V of b1 read as the difference.
+TEST(FineInterpolation, VelocityAndTorqueHaveTheDocumentsPolynomials) {
+  FineInterpolation drive;
+  drive.set_grid(kPeriodMs, 1.0);
+  drive.set_order(3);
+  drive.enter(0.0);
+  const double velocities[] = {1.0, 4.0, -2.0, 5.0};
+  const double torques[] = {10.0, 30.0, -20.0, 40.0};
+  for (int n = 0; n < 4; ++n) {
+    drive.update(0.0, n * kPeriodMs);
+    drive.feed_forward(velocities[n], torques[n]);
+  }
+  const double v0 = velocities[3], v1 = velocities[2], v2 = velocities[1];
+  const double dv = v0 - v1, da = dv - (v1 - v2);
+  for (double tau = 0.0; tau < 15.0; tau += 0.5) {  // beyond the period too
+    const double t = tau / kPeriodMs;
+    EXPECT_NEAR(drive.velocity_at(30.0 + tau), v1 + (dv - da / 2.0) * t + da / 2.0 * t * t, 1e-9) << tau;
+    EXPECT_NEAR(drive.torque_at(30.0 + tau), torques[2] + (torques[3] - torques[2]) * t, 1e-9) << tau;
   }
 }
 

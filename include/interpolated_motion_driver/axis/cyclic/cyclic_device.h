@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/cia402/cia402_device.h"
+#include "interpolated_motion_driver/axis/cyclic/bring_up.h"
 #include "interpolated_motion_driver/axis/cyclic/cyclic_parameters.h"
 #include "interpolated_motion_driver/axis/cyclic/setpoint_stream.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
@@ -45,6 +46,7 @@ class CyclicDevice final : public Cia402Device {
   const CyclicAxisParameters& parameters() const { return parameters_; }
   SetpointStream& setpoints() { return setpoints_; }
   const SetpointStream& setpoints() const { return setpoints_; }
+  const CyclicFacts& facts() const { return facts_; }
   /// Where the drive was told to stay when it was enabled, counts.
   std::int32_t enabled_at() const { return enabled_at_; }
 
@@ -55,6 +57,7 @@ class CyclicDevice final : public Cia402Device {
   canopen::Master& master_;
   canopen::NodeLink& node_;
   cia402::Identity identity_;
+  CyclicFacts facts_;
   CyclicTelemetry telemetry_;
   AxisFeedback feedback_;
   SetpointStream setpoints_;

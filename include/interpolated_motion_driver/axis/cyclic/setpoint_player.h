@@ -72,6 +72,7 @@ class SetpointPlayer final : public Player {
     Braking,
   };
 
+  bool send(std::int32_t target);
   void poll_following(HostTime now);
   void poll_moving(HostTime now);
   void come_to_rest(HostTime now);

@@ -44,6 +44,8 @@ class SetpointStream {
   /// Instant that the newest target position belongs to.
   HostTime newest() const { return history_.newest(); }
   std::int32_t newest_counts() const { return counts_; }
+  /// Velocity and acceleration with which the newest target position is passed; 0 at rest.
+  trajectory::State newest_motion() const;
   /// Whether the drive has come to the end of the path at `now`.
   bool played(HostTime now) const;
   /// Instants for which there was no target position, since the host was too late.

@@ -11,14 +11,16 @@ namespace interpolated_motion::axis {
 
 /// How the PDOs of a cyclic drive are used.
 ///
-/// - RPDO1: target position, before each SYNC
+/// - RPDO1: target position, and velocity offset where the drive takes one; before each SYNC
 /// - RPDO2: controlword, on change; the drive obeys at the next SYNC
+/// - RPDO3: torque offset, before each SYNC, where it is asked for and the drive takes one
 /// - TPDO1: statusword, mode, position; each SYNC
 /// - TPDO2: velocity, following error; about each 10 ms
 /// - TPDO3: position demand; about each 100 ms
 namespace cyclic_pdo {
 inline constexpr int kTargetRpdo = 1;
 inline constexpr int kControlwordRpdo = 2;
+inline constexpr int kTorqueRpdo = 3;
 inline constexpr int kStatusTpdo = 1;
 inline constexpr int kVelocityTpdo = 2;
 inline constexpr int kDemandTpdo = 3;
@@ -27,7 +29,8 @@ inline constexpr int kDemandTpdo = 3;
 int velocity_interval(HostDuration period);
 int demand_interval(HostDuration period);
 
-canopen::PdoConfiguration target_rpdo();
+canopen::PdoConfiguration target_rpdo(bool with_velocity_offset);
+canopen::PdoConfiguration torque_rpdo();
 canopen::PdoConfiguration controlword_rpdo();
 canopen::PdoConfiguration status_tpdo();
 canopen::PdoConfiguration velocity_tpdo(HostDuration period);

@@ -168,6 +168,8 @@ inline constexpr auto kCyclicObjects = [] {
       object(0x607A, 0, I32, Rww).value(0).pdo(),
       object(0x6084, 0, U32, Rw).value(0xF4240).range(1, 0xFFFFFFFF),
       object(0x6085, 0, U32, Rw).value(0x1E8480).range(1, 0xFFFFFFFF),
+      object(0x60B1, 0, I32, Rww).value(0).pdo(),
+      object(0x60B2, 0, I16, Rww).value(0).pdo(),
       object(0x60C2, 0, U8, Const).value(2),
       object(0x60C2, 1, U8, Rw).value(10).range(1, 20),
       object(0x60C2, 2, I8, Rw).value(-3).range(-3, -3),

@@ -10,7 +10,7 @@ namespace interpolated_motion::emulation {
 class CyclicObjects : public ObjectDictionary {
  public:
   explicit CyclicObjects(const CyclicParameters& parameters)
-      : ObjectDictionary(kCyclicTable, parameters.node_id) {
+      : ObjectDictionary(kCyclicTable, parameters.node_id), takes_offsets_(parameters.takes_offsets) {
     preset(0x1018, 1, parameters.vendor_id);
     preset(0x1018, 2, parameters.product_code);
     preset(0x1018, 3, parameters.revision_number);
@@ -18,6 +18,15 @@ class CyclicObjects : public ObjectDictionary {
     preset(0x2100, 1, parameters.interpolation_order);
     preset(0x2100, 2, parameters.ride_through);
   }
+
+  bool mappable(Slot slot, bool into_receive_pdo) const override {
+    const std::uint16_t index = entry(slot).index;
+    const bool offset = index == 0x60B1 || index == 0x60B2;
+    return (takes_offsets_ || !offset) && ObjectDictionary::mappable(slot, into_receive_pdo);
+  }
+
+ private:
+  bool takes_offsets_;
 };
 
 }  // namespace interpolated_motion::emulation

@@ -31,6 +31,12 @@ struct CyclicParameters {
   int interpolation_order = 3;  ///< 0x2100:1 after boot, 1..3
   int ride_through = 3;         ///< 0x2100:2 after boot, updates, 0..100
 
+  bool takes_offsets = true;   ///< 0x60B1 and 0x60B2 can be mapped into a receive PDO
+  double velocity_unit = 1.0;  ///< counts/s in one unit of 0x60B1, > 0
+  /// Acceleration that 1 per mille of the rated torque (0x60B2) makes of the axis, counts/s^2, >= 0; 0: the
+  /// axis feels none.
+  double acceleration_per_torque = 0.0;
+
   PlantParameters plant;              ///< how the axis follows the demand
   std::int32_t initial_position = 0;  ///< counts
 };

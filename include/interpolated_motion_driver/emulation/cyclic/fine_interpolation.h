@@ -28,6 +28,10 @@ class FineInterpolation {
   /// A fresh position has come at `now`. Two within one period: the later one counts.
   void update(double position, double now);
 
+  /// What goes with the newest update: velocity (counts/ms) and torque, in the caller's unit. Interpolated by
+  /// polynomials of their own, of order 2 (or the position's, if lower) and 1.
+  void feed_forward(double velocity, double torque);
+
   /// Whether an update has come since enter().
   bool following() const { return following_; }
 
@@ -40,17 +44,22 @@ class FineInterpolation {
 
   /// Demand at `now`.
   MotionState at(double now) const;
+  double velocity_at(double now) const;  ///< counts/ms, as fed forward
+  double torque_at(double now) const;    ///< as fed forward
 
  private:
   struct Knot {
     double time = 0.0;      ///< ms of the drive's own clock, at which `position` is to be reached
     double position = 0.0;  ///< counts
+    double velocity = 0.0;  ///< counts/ms, fed forward
+    double torque = 0.0;    ///< fed forward
   };
 
   // Four for a cubic, and one more for the segment that is still in effect when an update comes early.
   static constexpr std::size_t kKnots = 5;
 
   void shift_in(const Knot& knot);
+  MotionState through(double Knot::*value, std::size_t order, double now) const;
 
   double period_ = 1.0;
   double gain_ = 1.0;

@@ -15,6 +15,8 @@ struct CyclicSettings : DriveSettings {
   double servo_period = 1e-3;            ///< s, between the samples of the fine interpolation
   double velocity_unit = 1.0;            ///< counts/s in one unit of 0x606C
   double acceleration_unit = 1.0;        ///< counts/s^2 in one unit of 0x6084 and 0x6085
+  bool velocity_feedforward = true;      ///< 0x60B1 goes with each target position
+  double torque_per_acceleration = 0.0;  ///< per mille of the rated torque for 1 rad/s^2 (m/s^2), 0x60B2
   emulation::CyclicParameters emulated;  ///< what the emulated drive is; agrees with the settings above
 };
 

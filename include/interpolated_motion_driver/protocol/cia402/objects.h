@@ -64,6 +64,8 @@ inline constexpr Address kVelocityDimension{0x608C, 0};       ///< U8
 inline constexpr Address kAccelerationNotation{0x608D, 0};    ///< I8, power of ten of the unit
 inline constexpr Address kAccelerationDimension{0x608E, 0};   ///< U8
 inline constexpr Address kInterpolationSubMode{0x60C0, 0};    ///< I16; below 0: of the manufacturer
+inline constexpr Address kVelocityOffset{0x60B1, 0};          ///< I32, in the unit of 0x606C
+inline constexpr Address kTorqueOffset{0x60B2, 0};            ///< I16, per mille of the rated torque
 inline constexpr Address kInterpolationPeriod{0x60C2, 1};  ///< U8, in units of 10^kInterpolationTimeIndex s
 inline constexpr Address kInterpolationTimeIndex{0x60C2, 2};  ///< I8, power of ten of 1 s, -3: ms
 inline constexpr Address kMaxAcceleration{0x60C5, 0};         ///< U32
@@ -84,6 +86,8 @@ inline constexpr canopen::PdoEntry kPositionDemand{object::kPositionDemand, 32};
 inline constexpr canopen::PdoEntry kPositionActual{object::kPositionActual, 32};              ///< 0x60640020
 inline constexpr canopen::PdoEntry kVelocityActual{object::kVelocityActual, 32};              ///< 0x606C0020
 inline constexpr canopen::PdoEntry kTargetPosition{object::kTargetPosition, 32};              ///< 0x607A0020
+inline constexpr canopen::PdoEntry kVelocityOffset{object::kVelocityOffset, 32};              ///< 0x60B10020
+inline constexpr canopen::PdoEntry kTorqueOffset{object::kTorqueOffset, 16};                  ///< 0x60B20010
 inline constexpr canopen::PdoEntry kFollowingErrorActual{object::kFollowingErrorActual, 32};  ///< 0x60F40020
 inline constexpr canopen::PdoEntry kTimeStamp{object::kTimeStamp, 32};                        ///< 0x10130020
 
