@@ -262,8 +262,11 @@ bool Cia402PowerStage::sequence_done(HostTime now) {
 
 // Watching.
 
+// A drive that has booted while it was looked for is asked at once: the last question may have been too
+// early.
 void Cia402PowerStage::watch_node(HostTime now) {
   while (const auto event = watch_.next()) {
+    if (*event == NodeEvent::Restarted && stage() == Stage::Probing && !listening_) ask(now);
     const bool looked_for = stage() == Stage::Offline || stage() == Stage::Probing;
     const bool meant = !looked_for || (*event == NodeEvent::OtherMaster && !listening_);
     if (meant && stage() != Stage::Offline) take(*event, now);
