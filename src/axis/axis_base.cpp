@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/axis/axis_base.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,7 +119,13 @@ void AxisBase::lose(const std::string& reason, HostTime now) { end_in(Stage::Off
 void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
   if (stage_ == Stage::FaultStopping || stage_ == Stage::SwitchingOff) {
     if (stage == Stage::Offline) after_stop_ = stage;
+    if (stage == Stage::Offline) rest_due_ = std::min(rest_due_, now + player_->longest_motion(now));
     return;
+  }
+  // The first cause is the one to be removed.
+  if (stage_ == Stage::Fault) {
+    fault_text_ += fmt::format(" Since then: {}.", reason);
+    return enter(stage, now);
   }
   after_stop_ = stage;
   const bool moving = enabled() && is_powered() && player_->may_move();

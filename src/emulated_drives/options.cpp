@@ -28,7 +28,8 @@ constexpr const char* kNotes =
     "Faults: a line on the standard input is TARGET COMMAND, and is answered by a line. TARGET is\n"
     "  a joint, node id or address:  power_cycle SECONDS, stall 0|1, silence 0|1, clock PPM;\n"
     "      EPOS2: emcy CODE; SilverLode: fault KIND\n"
-    "  a CAN interface:  drop COUNT, drop_id ID COUNT, disconnect 0|1, bus_off SECONDS\n"
+    "  a CAN interface:  drop COUNT, drop_id ID COUNT, disconnect 0|1, bus_off SECONDS, repeat_id ID COUNT, "
+    "send FRAME\n"
     "  a link:  unplug SECONDS, disconnect 0|1, lose_requests COUNT, lose_replies COUNT,\n"
     "      garble_requests COUNT, garble_replies COUNT, garbage TEXT\n"
     "Ends by SIGINT or SIGTERM with exit code 0; 2: wrong arguments or configuration.\n";

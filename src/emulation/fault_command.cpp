@@ -61,10 +61,8 @@ std::optional<std::string> obey_fault(const std::string& text, const std::vector
   std::string names;
   for (const FaultCommand& command : known) {
     const auto arguments = behind_name(command, words);
-    if (arguments && command.obey_text && text.size() > command.name.size()) {
-      command.obey_text(text.substr(command.name.size() + 1));
-      return std::nullopt;
-    }
+    if (arguments && command.obey_text && text.size() > command.name.size())
+      return command.obey_text(text.substr(command.name.size() + 1));
     if (arguments && !command.obey_text && arguments->size() == command.numbers.size())
       return obey(command, text, *arguments);
     names += (names.empty() ? "" : ", ") + shown(command);

@@ -48,6 +48,9 @@ void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
   bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);
   bus.clock_discipline = reader.boolean("clock_discipline", bus.clock_discipline);
   bus.sdo_timeout = reader.number("sdo_timeout", bus.sdo_timeout, 0.01, 10.0);
+  bus.listen_before_start = reader.number("listen_before_start", bus.listen_before_start, 0.0, 10.0);
+  bus.refuse_other_masters =
+      reader.choice("other_masters", bus.refuse_other_masters, {{"refuse", true}, {"allow", false}});
 }
 
 void parse_serial_line(ParameterReader& reader, BusConfiguration& bus) {

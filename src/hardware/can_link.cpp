@@ -22,6 +22,8 @@ canopen::MasterParameters master_parameters(const BusConfiguration& configuratio
   parameters.bitrate = configuration.bitrate;
   parameters.max_bulk_load = configuration.max_load;
   parameters.sdo.timeout = host_duration(configuration.sdo_timeout);
+  parameters.listen = host_duration(configuration.listen_before_start);
+  parameters.alone = configuration.refuse_other_masters;
   return parameters;
 }
 
@@ -60,7 +62,7 @@ void CanLink::fill_traffic(motion::BusSnapshot& out) const {
 std::uint64_t CanLink::unexpected() const {
   std::uint64_t frames = 0;
   for (int cause = 0; cause < canopen::kUnexpectedFrameCauses; ++cause)
-    frames += master_.unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
+    frames += master_.foreign().unexpected(static_cast<canopen::UnexpectedFrame>(cause)).count;
   return frames;
 }
 

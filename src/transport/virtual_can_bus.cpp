@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "interpolated_motion_driver/transport/can_frame_bits.h"
+#include "interpolated_motion_driver/transport/stranger.h"
 
 namespace interpolated_motion::transport {
 namespace {
@@ -107,6 +108,11 @@ int VirtualCanBus::add_port(CanListener& listener, std::size_t queue_capacity) {
   ports_.emplace_back(&listener, std::max<std::size_t>(queue_capacity, 1));
   schedule();
   return static_cast<int>(ports_.size()) - 1;
+}
+
+Stranger& VirtualCanBus::stranger() {
+  if (!stranger_) stranger_ = std::make_unique<Stranger>(*this);
+  return *stranger_;
 }
 
 bool VirtualCanBus::send(int port, const canopen::Frame& frame, HostTime now) {

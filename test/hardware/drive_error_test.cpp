@@ -126,6 +126,36 @@ TEST_P(DriveError, ThatChangesAllTheTimeIsLoggedInPart) {
   EXPECT_EQ(logged("more before)"), 1);
 }
 
+// Frames as they were in the field: 0x4210 and its end, in the middle of a goal that goes on.
+TEST_P(DriveError, InMotionIsToldAndTheGoalGoesOn) {
+  const auto accepted = scenario.submit(make_goal({2.0}, {{0.3, 0.3, 0.3, 0.3, 0.3, 0.3}}));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+  scenario.run(0.5);
+  inject("can0", "send 081#1042080000000000");
+  scenario.run(0.05);
+  EXPECT_EQ(code(), 0x4210);
+  EXPECT_EQ(logged("EMCY 0x4210"), 1);
+  inject("can0", "send 081#0000000000000000");
+  scenario.run(0.05);
+  EXPECT_EQ(code(), 0);
+  EXPECT_EQ(logged("is over: EMCY 0x4210"), 1);
+  EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, motion::GoalOutcome::Succeeded);
+}
+
+// What came first may have caused what came then.
+TEST_P(DriveError, ThatCameFirstIsNamedFirstInTheFault) {
+  inject("joint1", "warning 0x4210");
+  inject("joint1", "emcy 0x7320");
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Fault));
+  const std::string fault = scenario.snapshot().fault;
+  const std::size_t first = fault.find("EMCY 0x4210");
+  ASSERT_NE(first, std::string::npos) << fault;
+  EXPECT_LT(first, fault.find("then EMCY 0x7320")) << fault;
+  EXPECT_NE(fault.find("then EMCY 0x7320"), std::string::npos) << fault;
+  EXPECT_EQ(code(), 0x7320);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, DriveError, ::testing::ValuesIn(kArms),
                          [](const ::testing::TestParamInfo<Arm>& arm) { return arm.param.name; });
 

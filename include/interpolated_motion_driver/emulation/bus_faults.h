@@ -11,7 +11,9 @@ namespace interpolated_motion::emulation {
 
 /// `drop COUNT` (the next COUNT frames reach nobody), `drop_id ID COUNT` (the next COUNT frames with that
 /// identifier), `drop_nth N` (the N-th frame), `refuse_nth N` (the host's N-th attempt to send), `disconnect
-/// 0|1` (the host's plug is out), `bus_off SECONDS`, all from `now` on.
+/// 0|1` (the host's plug is out), `bus_off SECONDS`, `repeat_id ID COUNT` (the next COUNT frames with that
+/// identifier come twice, as if from two devices), `send FRAME` (another node sends it: `send 000#8002`), all
+/// from `now` on.
 std::vector<FaultCommand> faults_of(transport::VirtualCanBus& bus, HostTime now);
 
 /// `lose_requests COUNT`, `lose_replies COUNT` (the next COUNT characters towards or from the drives reach

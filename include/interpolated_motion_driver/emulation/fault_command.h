@@ -30,8 +30,9 @@ struct FaultCommand {
   std::string name;                          ///< "power_cycle", "fault over_voltage"
   std::vector<FaultNumber> numbers;          ///< all must be given, in this order
   std::function<void(const Numbers&)> obey;  ///< given as many as `numbers` has, each within its range
-  /// Of a command that takes all that is behind its name as it stands; it has no numbers then.
-  std::function<void(const std::string&)> obey_text = {};
+  /// Of a command that takes all that is behind its name as it stands; it has no numbers then. Returns why it
+  /// is refused.
+  std::function<std::optional<std::string>(const std::string&)> obey_text = {};
 };
 
 /// Obeys `text`, a name and its numbers in C notation ("power_cycle 0.5"), which is one of `known`. Returns

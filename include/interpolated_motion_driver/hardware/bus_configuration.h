@@ -80,6 +80,8 @@ struct BusConfiguration {
   int host_node_id = 127;             ///< CANopen node id of this host
   double max_load = 0.6;              ///< share of the bit rate that motion records may fill, 0..1
   double sdo_timeout = 0.2;           ///< s
+  double listen_before_start = 0.2;   ///< s without another master before this host talks to the drives
+  bool refuse_other_masters = true;   ///< another master on the bus is a fault
   bool clock_discipline = true;       ///< the drives set their clocks by the host's (EPOS2: SYNC and 0x1013)
 
   /// There are drives on the bus whose time base is SYNC. Follows from the drives, is no parameter.

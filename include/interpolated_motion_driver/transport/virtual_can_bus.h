@@ -12,6 +12,8 @@
 
 namespace interpolated_motion::transport {
 
+class Stranger;
+
 /// A node on a virtual bus; told about each frame of the other nodes.
 class CanListener {
  public:
@@ -71,6 +73,9 @@ class VirtualCanBus {
   /// Queues a frame at a port. Returns false when that queue is full or the node is disconnected; the host's
   /// queue goes on taking frames while it is unplugged.
   bool send(int port, const canopen::Frame& frame, HostTime now);
+
+  /// A node of nobody's, on the bus from the first call on.
+  Stranger& stranger();
 
   /// Number of frames that can still be queued at a port.
   std::size_t free_slots(int port) const;
@@ -143,6 +148,7 @@ class VirtualCanBus {
   canopen::Frame current_;
   std::vector<Port> ports_;
   std::unique_ptr<HostPort> host_;
+  std::unique_ptr<Stranger> stranger_;
   std::uint64_t delivered_to_host_ = 0;
   Faults faults_;
   CanBusStatistics statistics_;

@@ -32,11 +32,16 @@ void DriveErrors::take(const canopen::Emcy& emcy, HostTime now) {
                             error_register, cia402::error_register_text(error_register)),
                 now);
   }
-  std::string text = device_.text_of(emcy);
-  if (emcy.code == code_ && text == text_) return;
-  code_ = emcy.code;
-  text_ = std::move(text);
+  if (emcy.code == code_ && device_.text_of(emcy) == text_) return;
+  set(emcy);
   note(true, "the drive reports " + text_, now);
+}
+
+void DriveErrors::set(const canopen::Emcy& emcy) {
+  const bool is_first = code_ == 0;
+  code_ = emcy.code;
+  text_ = device_.text_of(emcy);
+  if (is_first) first_ = text_;
 }
 
 void DriveErrors::end(HostTime now) {
@@ -71,8 +76,7 @@ void DriveErrors::take_read(std::uint8_t error_register, std::uint32_t newest, H
   emcy.code = static_cast<std::uint16_t>(newest);
   emcy.error_register = error_register;
   if (emcy.code == 0) emcy.code = kGenericError;
-  code_ = emcy.code;
-  text_ = device_.text_of(emcy);
+  set(emcy);
   note(true, "the drive has an error of which no message has come: " + text_, now);
 }
 

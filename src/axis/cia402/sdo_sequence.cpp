@@ -68,6 +68,7 @@ HostTime SdoSequence::next_deadline() const { return in_progress_ ? node_.sdo().
 
 void SdoSequence::start_step(HostTime now) {
   const Step& step = steps_.front();
+  node_.sdo().set_timeout((attempts_ + 1) * timeout_);
   in_progress_ =
       step.write ? node_.sdo().start_download(*step.write, now) : node_.sdo().start_upload(step.address, now);
   ++attempts_;

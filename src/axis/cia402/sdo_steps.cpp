@@ -66,6 +66,15 @@ Step write_if_present(const canopen::SdoWrite& write) {
   });
 }
 
+Step because_of(Step step, const std::string& origin) {
+  step.check = [check = std::move(step.check), origin](const SdoResult& r) -> Failure {
+    Failure failure = check ? check(r) : r.ok ? Failure() : Failure(r.text());
+    if (failure && r.aborted_by_drive) *failure += "; the drive does not take what follows from " + origin;
+    return failure;
+  };
+  return step;
+}
+
 Steps writes(const std::vector<canopen::SdoWrite>& list) {
   Steps steps;
   for (const auto& write : list) steps.push_back(SdoSequence::write(write));

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
+#include "interpolated_motion_driver/axis/cia402/value_origin.h"
 #include "interpolated_motion_driver/axis/cyclic/telemetry.h"
 #include "interpolated_motion_driver/protocol/cia402/objects.h"
 
@@ -46,22 +50,29 @@ Steps supervision(const CyclicAxisParameters& p) {
       write_u32(object::kConsumerHeartbeat1, consumer),
       write_if_present(sdo_write<std::int16_t>(object::kAbortConnectionOption, p.abort_connection_option)),
       write_if_present(sdo_write<std::int16_t>(object::kFaultReactionOption, p.fault_reaction_option)),
-      write_u32(object::kMaxFollowingError, to_u32(window))};
+      because_of(write_u32(object::kMaxFollowingError, to_u32(window)),
+                 origin_of(p, "max_following_error", p.max_following_error))};
 }
 
 Steps deceleration(const CyclicAxisParameters& p) {
   const double counts = std::abs(p.transmission.counts_per_second(p.limits.max_acceleration));
   const std::uint32_t units = to_u32(counts / p.acceleration_unit);
-  return {write_if_present(sdo_write<std::uint32_t>(object::kProfileDeceleration, units)),
-          write_if_present(sdo_write<std::uint32_t>(object::kQuickStopDeceleration, units))};
+  const std::string origin =
+      origin_of(p, "limits/max_acceleration", p.limits.max_acceleration) + " and acceleration_unit";
+  return {
+      because_of(write_if_present(sdo_write<std::uint32_t>(object::kProfileDeceleration, units)), origin),
+      because_of(write_if_present(sdo_write<std::uint32_t>(object::kQuickStopDeceleration, units)), origin)};
 }
 
 Steps cycle(const CyclicAxisParameters& p) {
   const auto ms = static_cast<std::uint8_t>(count<std::chrono::milliseconds>(p.sync_period));
   const auto us = static_cast<std::uint32_t>(count<std::chrono::microseconds>(p.sync_period));
-  return {write_if_present(sdo_write<std::uint32_t>(object::kCommunicationCyclePeriod, us)),
-          SdoSequence::write(sdo_write<std::uint8_t>(object::kInterpolationPeriod, ms)),
-          SdoSequence::write(sdo_write<std::int8_t>(object::kInterpolationTimeIndex, kMilliseconds))};
+  const std::string origin = fmt::format("sync_period of the bus ({} ms)", ms);
+  return {
+      because_of(write_if_present(sdo_write<std::uint32_t>(object::kCommunicationCyclePeriod, us)), origin),
+      because_of(SdoSequence::write(sdo_write<std::uint8_t>(object::kInterpolationPeriod, ms)), origin),
+      because_of(SdoSequence::write(sdo_write<std::int8_t>(object::kInterpolationTimeIndex, kMilliseconds)),
+                 origin)};
 }
 
 using canopen::pdo_disable;
@@ -126,7 +137,7 @@ std::vector<SdoSequence::Step> cyclic_position_limit_steps(const CyclicAxisParam
                                                            std::optional<double> present) {
   Steps steps;
   for (const canopen::SdoWrite& write : position_limits(parameters.limits, parameters.transmission, present))
-    steps.push_back(write_if_present(write));
+    steps.push_back(because_of(write_if_present(write), position_limits_origin(parameters)));
   return steps;
 }
 

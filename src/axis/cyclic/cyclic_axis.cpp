@@ -6,7 +6,7 @@ CyclicAxis::CyclicAxis(const CyclicAxisParameters& parameters, canopen::Master& 
                        canopen::NodeLink& node)
     : drive_(parameters, master, node),
       stage_({parameters.joint, cia402::Mode::CyclicSynchronousPosition, cyclic_pdo::kControlwordRpdo,
-              parameters.heartbeat_timeout, parameters.bring_up_timeout},
+              parameters.heartbeat_timeout, parameters.bring_up_timeout, parameters.feedback_timeout},
              drive_, master, node),
       player_(stage_, drive_) {
   stage_.attach(player_);

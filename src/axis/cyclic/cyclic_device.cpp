@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/cia402/pdo_check.h"
+#include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/axis/cyclic/bring_up.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
@@ -75,7 +77,11 @@ std::string CyclicDevice::description() const {
 }
 
 std::vector<SdoSequence::Step> CyclicDevice::enable_steps() const {
-  return cyclic_position_limit_steps(parameters_, feedback_.position);
+  auto steps = pdo_check({cyclic_pdo::target_rpdo(), cyclic_pdo::controlword_rpdo(),
+                          cyclic_pdo::status_tpdo(), cyclic_pdo::velocity_tpdo(parameters_.sync_period)},
+                         node_.id());
+  sdo_steps::append(steps, cyclic_position_limit_steps(parameters_, feedback_.position));
+  return steps;
 }
 
 std::vector<SdoSequence::Step> CyclicDevice::bring_up_steps(SdoSequence& sequence) {
@@ -90,6 +96,12 @@ void CyclicDevice::on_enabling(bool commanded) {
 }
 
 std::uint16_t CyclicDevice::stop_word() const { return cia402::controlword::kQuickStop; }
+
+void CyclicDevice::take_position(std::int32_t position, HostTime now) {
+  telemetry_.position = position;
+  telemetry_.position_time = now;
+  feedback_ = {now, parameters_.transmission.joint_position(position), 0.0};
+}
 
 void CyclicDevice::on_tpdo(int number, const canopen::Frame& frame, HostTime time) {
   if (!telemetry_.take(number, frame, time, master_.last_sync_time())) return;

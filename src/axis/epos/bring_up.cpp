@@ -9,6 +9,7 @@
 
 #include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
+#include "interpolated_motion_driver/axis/cia402/value_origin.h"
 #include "interpolated_motion_driver/axis/epos/telemetry.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
 #include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
@@ -108,9 +109,17 @@ std::uint32_t velocity_limit(const VelocityUnitSearch& search, int notation) {
   return to_u32(rpm * std::pow(10.0, -notation));
 }
 
+std::string velocity_origin(const EposAxisParameters& parameters) {
+  return origin_of(parameters, "limits/max_velocity", parameters.limits.max_velocity) +
+         fmt::format(", {:.0f} rpm of the motor, and limit_margin", motor_limits(parameters).velocity);
+}
+
 /// The drive did not take a unit, or not the limits in it: the next coarser one is tried.
 Failure try_coarser(VelocityUnitSearch search, int notation, const SdoResult& refused) {
-  if (!refused.aborted_by_drive || notation == 0) return refused.text();
+  if (!refused.aborted_by_drive) return refused.text();
+  if (notation == 0)
+    return refused.text() + "; the drive does not take what follows from " +
+           velocity_origin(search.parameters);
   search.sequence.insert(try_velocity_notation(search, notation + 1));
   return std::nullopt;
 }
@@ -122,7 +131,8 @@ Step write_velocity_limit(VelocityUnitSearch search, int notation) {
     search.facts.velocity_notation = notation;
     search.facts.max_velocity = velocity_limit(search, notation);
     const double warn = motor_limits(search.parameters).velocity * std::pow(10.0, -notation);
-    search.sequence.insert({write_u32(object::kProfileVelocity, to_u32(warn))});
+    search.sequence.insert(
+        {because_of(write_u32(object::kProfileVelocity, to_u32(warn)), velocity_origin(search.parameters))});
     return std::nullopt;
   });
 }
@@ -145,10 +155,14 @@ Steps try_velocity_notation(VelocityUnitSearch search, int notation) {
 Steps motion_limits(const EposAxisParameters& parameters, EposFacts& facts) {
   const std::uint32_t acceleration = to_u32(motor_limits(parameters).acceleration);
   facts.max_acceleration = to_u32(motor_limits(parameters).acceleration * parameters.limit_margin);
-  return {write_u32(object::kMaxAcceleration, facts.max_acceleration),
-          write_u32(object::kProfileAcceleration, acceleration),
-          write_u32(object::kProfileDeceleration, acceleration),
-          write_u32(object::kQuickStopDeceleration, acceleration)};
+  const std::string origin =
+      origin_of(parameters, "limits/max_acceleration", parameters.limits.max_acceleration) +
+      fmt::format(", {:.0f} rpm/s of the motor", motor_limits(parameters).acceleration);
+  return {
+      because_of(write_u32(object::kMaxAcceleration, facts.max_acceleration), origin + ", and limit_margin"),
+      because_of(write_u32(object::kProfileAcceleration, acceleration), origin),
+      because_of(write_u32(object::kProfileDeceleration, acceleration), origin),
+      because_of(write_u32(object::kQuickStopDeceleration, acceleration), origin)};
 }
 
 Steps supervision(const EposAxisParameters& parameters) {
@@ -166,7 +180,8 @@ Steps supervision(const EposAxisParameters& parameters) {
               sdo_write<std::int16_t>(object::kAbortConnectionOption, parameters.abort_connection_option)),
           SdoSequence::write(
               sdo_write<std::int16_t>(object::kFaultReactionOption, parameters.fault_reaction_option)),
-          write_u32(object::kMaxFollowingError, to_u32(counts))};
+          because_of(write_u32(object::kMaxFollowingError, to_u32(counts)),
+                     origin_of(parameters, "max_following_error", parameters.max_following_error))};
 }
 
 // PDOs.
@@ -279,13 +294,20 @@ MotorLimits motor_limits(const EposAxisParameters& parameters) {
           std::abs(transmission.motor_rpm(parameters.limits.max_acceleration))};
 }
 
+std::vector<SdoSequence::Step> epos_position_limit_steps(const EposAxisParameters& parameters,
+                                                         std::optional<double> present) {
+  Steps steps = writes(position_limits(parameters.limits, parameters.transmission, present));
+  for (Step& step : steps) step = because_of(std::move(step), position_limits_origin(parameters));
+  return steps;
+}
+
 std::vector<SdoSequence::Step> epos_bring_up_steps(const EposAxisParameters& parameters, std::uint8_t node,
                                                    SdoSequence& sequence, EposFacts& facts) {
   Steps steps = verification(facts);
   append(steps, supervision(parameters));
   append(steps, try_velocity_notation({parameters, sequence, facts}, kFinestVelocityNotation));
   append(steps, motion_limits(parameters, facts));
-  append(steps, writes(position_limits(parameters.limits, parameters.transmission, std::nullopt)));
+  append(steps, epos_position_limit_steps(parameters, std::nullopt));
   append(steps, pdos(parameters, node, sequence, facts));
   return steps;
 }

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "interpolated_motion_driver/axis/cia402/position_limits.h"
+#include "interpolated_motion_driver/axis/cia402/pdo_check.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
@@ -56,7 +56,11 @@ std::vector<SdoSequence::Step> EposDevice::bring_up_steps(SdoSequence& sequence)
 }
 
 std::vector<SdoSequence::Step> EposDevice::enable_steps() const {
-  return sdo_steps::writes(position_limits(parameters_.limits, parameters_.transmission, feedback_.position));
+  auto steps = pdo_check({epos_pdo::record_rpdo(), epos_pdo::controlword_rpdo(), epos_pdo::status_tpdo(),
+                          epos_pdo::motion_tpdo(), epos_pdo::buffer_tpdo(facts_.free_records_mapped)},
+                         node_.id());
+  sdo_steps::append(steps, epos_position_limit_steps(parameters_, feedback_.position));
+  return steps;
 }
 
 bool EposDevice::has_reported(HostTime since) const {
@@ -65,6 +69,12 @@ bool EposDevice::has_reported(HostTime since) const {
 
 /// Halted it stays in its mode and at its position until the reset.
 std::uint16_t EposDevice::stop_word() const { return cw::kStartInterpolation | cw::kHaltBit; }
+
+void EposDevice::take_position(std::int32_t position, HostTime now) {
+  telemetry_.position = position;
+  telemetry_.motion_time = now;
+  feedback_ = {now, parameters_.transmission.joint_position(position), 0.0};
+}
 
 void EposDevice::on_tpdo(int number, const canopen::Frame& frame, HostTime time) {
   const cia402::BufferStatus before = telemetry_.buffer_status;

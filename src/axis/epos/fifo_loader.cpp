@@ -108,8 +108,9 @@ bool FifoLoader::poll_verifying(HostTime now) {
   if (attempts_ < kAttempts) {
     clear(now);
   } else {
-    stage_.fail(fmt::format("{} records were sent but its FIFO holds {} (0x60C4:04), {} times in a row", sent,
-                            held_, kAttempts),
+    stage_.fail(fmt::format("{} records were sent but its FIFO holds {} (0x60C4:04), {} times in a row: are "
+                            "its PDOs still set up as at bring-up (0x1400, 0x1600)?",
+                            sent, held_, kAttempts),
                 now);
   }
   return false;

@@ -97,15 +97,16 @@ void PvtPlayer::give_up(HostTime) {
 }
 
 /// The drive goes on through its FIFO, or until it misses the host's heartbeat if it hears nothing any more,
-/// and then down its quick-stop ramp. Its last report shows that it could still be heard, and so hear, until
-/// the SYNC after that.
+/// and then down its quick-stop ramp. As long as its heartbeat comes, it may hear the host and go on. The
+/// last that has come of it shows that it could still be heard, and so hear, until the SYNC after that.
 HostDuration PvtPlayer::longest_motion(HostTime now) const {
   const EposAxisParameters& p = drive_.parameters();
   const double played = clock_.least_elapsed(now);
   const double queued = feed_.time_ahead(played) * (1.0 + PlaybackClock::kMaxError);
-  const HostTime misses_host =
-      drive_.feedback().time + drive_.master().parameters().sync_period + p.heartbeat_timeout;
-  const bool watches_host = p.abort_connection_option != 0;
+  const canopen::HeartbeatConsumer& heartbeat = drive_.node().heartbeat();
+  const HostTime heard = std::max(drive_.feedback().time, heartbeat.last_heard());
+  const HostTime misses_host = heard + drive_.master().parameters().sync_period + p.heartbeat_timeout;
+  const bool watches_host = p.abort_connection_option != 0 && heartbeat.lost();
   const double alone = watches_host ? std::max(0.0, seconds(misses_host - now)) : queued;
   const double fastest = feed_.fastest_ahead(played, drive_.counts_per_second(1));
   const double deceleration = p.limits.max_acceleration * std::abs(p.transmission.counts_per_radian());

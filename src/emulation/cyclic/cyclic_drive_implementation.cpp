@@ -25,6 +25,7 @@ NodeSettings node_settings(const CyclicParameters& parameters) {
   settings.sample_phase = parameters.tick_phase;
   settings.boot_time = parameters.boot_time;
   settings.sdo_response_time = parameters.sdo_response_time;
+  settings.pdo_setup_only_pre_operational = parameters.pdo_setup_only_pre_operational;
   return settings;
 }
 

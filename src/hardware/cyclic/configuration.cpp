@@ -20,6 +20,10 @@ void parse_emulated(ParameterReader& reader, const DriveConfiguration& drive, Cy
   emulated.servo_period = host_duration(settings.servo_period);
   emulated.tick_phase = host_duration(reader.number("tick_phase", 0.0, 0.0, 0.999 * settings.servo_period));
   emulated.boot_time = host_duration(reader.number("boot_time", seconds(emulated.boot_time), 0.001, 60.0));
+  emulated.sdo_response_time =
+      host_duration(reader.number("sdo_response_time", seconds(emulated.sdo_response_time), 0.0, 60.0));
+  emulated.pdo_setup_only_pre_operational =
+      reader.boolean("pdo_setup_only_pre_operational", emulated.pdo_setup_only_pre_operational);
   emulated.sync_gain = reader.number("sync_gain", emulated.sync_gain, 1e-3, 1.0);
   emulated.interpolation_order =
       static_cast<int>(reader.integer("interpolation_order", settings.interpolation_order, 1, 3));

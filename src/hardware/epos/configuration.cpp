@@ -42,6 +42,10 @@ void parse_unknowns(ParameterReader& reader, EposParameters& drive) {
   drive.time_stamp_pdo_mappable = reader.boolean("time_stamp_pdo_mappable", drive.time_stamp_pdo_mappable);
   drive.free_records_pdo_mappable =
       reader.boolean("free_records_pdo_mappable", drive.free_records_pdo_mappable);
+  drive.pdo_setup_only_pre_operational =
+      reader.boolean("pdo_setup_only_pre_operational", drive.pdo_setup_only_pre_operational);
+  drive.sdo_response_time =
+      host_duration(reader.number("sdo_response_time", seconds(drive.sdo_response_time), 0.0, 60.0));
   drive.record_release = reader.choice(
       "record_release", drive.record_release,
       {{"at_segment_end", RecordRelease::AtSegmentEnd}, {"at_segment_start", RecordRelease::AtSegmentStart}});

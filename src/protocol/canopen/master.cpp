@@ -29,6 +29,7 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   check_period(bus, "heartbeat_period", p.heartbeat_period);
   check_period(bus, "heartbeat_timeout", p.heartbeat_timeout);
   check_period(bus, "sync_period", p.sync_period);
+  check_period(bus, "listen", p.listen);
   if (p.isochronous && p.sync_period == HostDuration::zero()) {
     throw std::invalid_argument(fmt::format("{}: sync_period = 0 s, an isochronous bus needs one", bus));
   }
@@ -67,7 +68,8 @@ Master::Master(std::string bus_name, MasterParameters parameters)
       pacer_(bulk_interval(parameters_), parameters_.bulk_burst),
       heartbeat_(parameters_.own_node_id, parameters_.heartbeat_period),
       sync_(parameters_.sync_period),
-      load_(parameters_.bitrate) {}
+      load_(parameters_.bitrate),
+      foreign_(parameters_.listen, parameters_.alone) {}
 
 Master::~Master() = default;
 
@@ -87,6 +89,7 @@ void Master::advance(HostTime now) { now_ = std::max(now_, now); }
 void Master::poll(HostTime now) {
   advance(now);
   poll_nodes(now);
+  if (!foreign_.listen(now)) return;
   if (sync_.poll(now)) queue_periodic_sync();
   const auto heartbeat = heartbeat_.poll(now);
   if (heartbeat && !heartbeat_queued_) heartbeat_queued_ = queue_control(*heartbeat, Kind::Heartbeat);
@@ -131,6 +134,7 @@ void Master::poll_nodes(HostTime now) {
 
 HostTime Master::next_deadline() const {
   HostTime next = std::min(heartbeat_.next_deadline(), sync_.next_deadline());
+  if (!foreign_.talks()) next = std::min(next, foreign_.quiet_from());
   bool bulk_waits = false;
   for (const NodeLink* node : in_order_) {
     next = std::min({next, node->sdo_.next_deadline(), node->heartbeat_.next_deadline()});
@@ -146,7 +150,8 @@ bool Master::send_nmt(NmtCommand command, std::uint8_t node) {
 
 bool Master::request_sync(HostTime now) {
   advance(now);
-  return parameters_.isochronous || queue_control(sync_frame(), Kind::RequestedSync);
+  if (parameters_.isochronous || !foreign_.talks()) return true;
+  return queue_control(sync_frame(), Kind::RequestedSync);
 }
 
 bool Master::queue_control(const Frame& frame, Kind kind, std::uint8_t node) {
@@ -165,7 +170,9 @@ bool Master::push_control(const ControlFrame& frame) {
 void Master::collect_sdo() {
   for (NodeLink* node : in_order_) {
     if (node->sdo_frame_queued_ || !node->sdo_.has_frame() || control_.full()) continue;
-    node->sdo_frame_queued_ = push_control({*node->sdo_.next_frame(now_), Kind::Sdo, node->id_, HostTime{}});
+    const Frame frame = *node->sdo_.next_frame(now_);
+    node->sdo_answers_.on_request(frame);
+    node->sdo_frame_queued_ = push_control({frame, Kind::Sdo, node->id_, HostTime{}});
   }
 }
 
@@ -226,6 +233,7 @@ void Master::clear_outgoing() {
   time_stamp_.reset();
   syncs_since_confirmation_ = 0;
   peeked_ = Peeked::None;
+  foreign_.deafen();
 }
 
 /// The node whose turn it is, or the next after it with a bulk frame; nullptr when none has.

@@ -1,39 +1,15 @@
-#include <fmt/format.h>
-
 #include <utility>
 
-#include "interpolated_motion_driver/protocol/canopen/frame_text.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 
 namespace interpolated_motion::canopen {
-namespace {
-
-const char* name_of(UnexpectedFrame cause) {
-  switch (cause) {
-    case UnexpectedFrame::UnknownCobId:
-      return "with an unknown COB-ID";
-    case UnexpectedFrame::RemoteFrame:
-      return "sent as remote request";
-    case UnexpectedFrame::ExtendedFrame:
-      return "with a 29-bit identifier";
-    case UnexpectedFrame::UnconfiguredNode:
-      return "of nodes that are not configured";
-    case UnexpectedFrame::OtherMaster:
-      return "of another master on this bus";
-    case UnexpectedFrame::Malformed:
-      return "of a wrong length";
-  }
-  return "";
-}
-
-}  // namespace
 
 void Master::on_frame(const ReceivedFrame& received) {
   advance(received.time);
   load_.add(received.frame, received.time);
   if (received.own) return on_own_frame(received);
-  if (received.frame.extended) return count(UnexpectedFrame::ExtendedFrame, received);
-  if (received.frame.remote) return count(UnexpectedFrame::RemoteFrame, received);
+  if (received.frame.extended) return foreign_.count(UnexpectedFrame::ExtendedFrame, received);
+  if (received.frame.remote) return foreign_.count(UnexpectedFrame::RemoteFrame, received);
   on_foreign_frame(received);
 }
 
@@ -68,30 +44,49 @@ void Master::on_foreign_frame(const ReceivedFrame& received) {
   switch (meaning.service) {
     case Service::Unknown:
     case Service::Lss:
-      return count(UnexpectedFrame::UnknownCobId, received);
+      return foreign_.count(UnexpectedFrame::UnknownCobId, received);
     case Service::Nmt:
     case Service::Sync:
     case Service::Time:
     case Service::Rpdo:
     case Service::SdoRequest:
-      return count(UnexpectedFrame::OtherMaster, received);
+      return on_other_master(meaning, received);
     case Service::Emcy:
     case Service::Tpdo:
     case Service::SdoResponse:
     case Service::Heartbeat:
       break;
   }
-  if (meaning.node == parameters_.own_node_id) return count(UnexpectedFrame::OtherMaster, received);
-  if (!nodes_[meaning.node]) return count(UnexpectedFrame::UnconfiguredNode, received);
+  if (meaning.node == parameters_.own_node_id) return on_other_master(meaning, received);
+  if (!nodes_[meaning.node]) return foreign_.count(UnexpectedFrame::UnconfiguredNode, received);
   deliver(*nodes_[meaning.node], meaning, received);
+}
+
+/// A time of day is not the master's alone, and nodes that are not ours may have a master of their own.
+void Master::on_other_master(const CobIdMeaning& meaning, const ReceivedFrame& received) {
+  foreign_.count(UnexpectedFrame::OtherMaster, received);
+  const bool has_addressee = meaning.service == Service::Rpdo || meaning.service == Service::SdoRequest;
+  const bool is_ours = meaning.node == parameters_.own_node_id || find_node(meaning.node) != nullptr;
+  if (meaning.service == Service::Time || (has_addressee && !is_ours)) return;
+  foreign_.note_master(received);
+  if (meaning.service == Service::SdoRequest && nodes_[meaning.node])
+    nodes_[meaning.node]->sdo_answers_.on_request(received.frame);
+  if (meaning.service != Service::Nmt) return;
+  const auto order = decode_nmt(received.frame);
+  for (NodeLink* node : in_order_) {
+    if (order && (order->node == kAllNodes || order->node == node->id_)) node->foreign_nmt_ = order->command;
+  }
 }
 
 void Master::deliver(NodeLink& node, const CobIdMeaning& meaning, const ReceivedFrame& received) {
   if (meaning.service == Service::Emcy) return deliver_emcy(node, received);
-  if (meaning.service == Service::SdoResponse) return node.sdo_.on_frame(received.frame, received.time);
+  if (meaning.service == Service::SdoResponse) {
+    node.sdo_answers_.on_answer(received.frame);
+    return node.sdo_.on_frame(received.frame, received.time);
+  }
   if (meaning.service == Service::Heartbeat) {
     const auto state = decode_heartbeat(received.frame);
-    if (!state) return count(UnexpectedFrame::Malformed, received);
+    if (!state) return foreign_.count(UnexpectedFrame::Malformed, received);
     return node.heartbeat_.on_heartbeat(*state, received.time);
   }
   if (valid_pdo_number(meaning.pdo)) node.sync_answers_.on_tpdo(meaning.pdo);
@@ -100,27 +95,13 @@ void Master::deliver(NodeLink& node, const CobIdMeaning& meaning, const Received
 
 void Master::deliver_emcy(NodeLink& node, const ReceivedFrame& received) {
   const auto emcy = decode_emcy(received.frame, received.time);
-  if (!emcy) return count(UnexpectedFrame::Malformed, received);
+  if (!emcy) return foreign_.count(UnexpectedFrame::Malformed, received);
   if (!node.emergencies_.push_over_oldest(*emcy)) ++node.emergencies_lost_;
 }
 
-void Master::count(UnexpectedFrame cause, const ReceivedFrame& received) {
-  UnexpectedFrames& frames = unexpected_[static_cast<std::size_t>(cause)];
-  ++frames.count;
-  frames.last = received.frame;
-  frames.time = received.time;
-}
-
-const UnexpectedFrames& Master::unexpected(UnexpectedFrame cause) const {
-  return unexpected_[static_cast<std::size_t>(cause)];
-}
-
 std::string Master::unexpected_text(UnexpectedFrame cause) const {
-  const UnexpectedFrames& frames = unexpected(cause);
-  if (frames.count == 0) return {};
-  const std::string what = frames.last.extended ? "" : describe_cob_id(frames.last.id) + ", ";
-  return fmt::format("{}: {} frame{} {}, last: {}{}", bus_name_, frames.count, frames.count == 1 ? "" : "s",
-                     name_of(cause), what, to_string(frames.last));
+  const std::string text = foreign_.unexpected_text(cause);
+  return text.empty() ? text : bus_name_ + ": " + text;
 }
 
 }  // namespace interpolated_motion::canopen

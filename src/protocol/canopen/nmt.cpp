@@ -29,6 +29,29 @@ Frame nmt_frame(NmtCommand command, std::uint8_t node) {
   return frame;
 }
 
+std::optional<NmtOrder> decode_nmt(const Frame& frame) {
+  if (frame.remote || frame.extended || frame.length != 2 || frame.id != cob_id::kNmt) return std::nullopt;
+  const auto command = static_cast<NmtCommand>(frame.data[0]);
+  if (to_text(command).empty()) return std::nullopt;
+  return NmtOrder{command, frame.data[1]};
+}
+
+std::string_view to_text(NmtCommand command) {
+  switch (command) {
+    case NmtCommand::Start:
+      return "start";
+    case NmtCommand::Stop:
+      return "stop";
+    case NmtCommand::EnterPreOperational:
+      return "enter pre-operational";
+    case NmtCommand::ResetNode:
+      return "reset node";
+    case NmtCommand::ResetCommunication:
+      return "reset communication";
+  }
+  return {};
+}
+
 Frame heartbeat_frame(std::uint8_t node, NodeState state) {
   Frame frame;
   frame.id = cob_id::heartbeat(node);

@@ -81,6 +81,7 @@ bool SdoClient::start(ObjectAddress address, SdoDirection direction, State state
   transfer_.node = node_;
   transfer_.address = address;
   transfer_.direction = direction;
+  transfer_.timeout = parameters_.timeout;
   state_ = state;
   timeout_ = parameters_.timeout;
   toggle_ = false;
@@ -209,10 +210,15 @@ bool SdoClient::is_initiate() const {
          state_ == State::BlockUploadInitiate || state_ == State::BlockDownloadInitiate;
 }
 
-/// After a time-out and a second try, the answer to the first try may be followed by that to the second.
+/// After a time-out and a second try, the answer to the first try may be followed by that to the second. And
+/// a late answer may be of a transfer to the same object in the other direction.
 bool SdoClient::is_repeated_initiate(const Frame& frame) const {
   const unsigned command = frame.data[0];
   switch (state_) {
+    case State::UploadInitiate:
+      return command == 0x60;
+    case State::DownloadInitiate:
+      return (command & 0xE0) == 0x40;
     case State::UploadSegment:
       return (command & 0xE0) == 0x40 && is_for_this_object(frame);
     case State::DownloadSegment:

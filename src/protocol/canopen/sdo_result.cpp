@@ -71,7 +71,10 @@ std::string SdoResult::text() const {
                       describe_abort(abort_code), aborted_by_drive ? "the drive" : "this host",
                       to_string(last_sent));
   if (abort_code == abort_code::kTimeout && !aborted_by_drive) {
-    text += "; no answer came in time: check the drive's power, node id and bit rate";
+    text += fmt::format(
+        "; no answer came within {:.2f} s: check the drive's power, node id and bit rate; where it answers "
+        "later than that, raise sdo_timeout of the bus",
+        seconds(timeout));
   }
   return text;
 }

@@ -75,7 +75,7 @@ TEST(MasterReceiving, OwnFramesConfirmSyncAndPdos) {
   // Another's SYNC is not ours.
   master.on_frame(from_bus(make_frame(0x080, {}), at_us(2500)));
   EXPECT_EQ(master.last_sync_time(), at_us(1500));
-  EXPECT_EQ(master.unexpected(UnexpectedFrame::OtherMaster).count, 1u);
+  EXPECT_EQ(master.foreign().unexpected(UnexpectedFrame::OtherMaster).count, 1u);
 }
 
 TEST(MasterReceiving, CountsWhatItCannotUseByCause) {
@@ -108,11 +108,11 @@ TEST(MasterReceiving, CountsWhatItCannotUseByCause) {
   for (std::uint32_t id : {0x000u, 0x100u, 0x203u, 0x603u, 0x77Fu}) {
     master.on_frame(from_bus(make_frame(id, {1}), at_ms(6)));
   }
-  EXPECT_EQ(master.unexpected(UnexpectedFrame::OtherMaster).count, 5u);
+  EXPECT_EQ(master.foreign().unexpected(UnexpectedFrame::OtherMaster).count, 5u);
   master.on_frame(from_bus(make_frame(0x703, {5, 5}), at_ms(7)));
   master.on_frame(from_bus(make_frame(0x083, {5}), at_ms(8)));
-  EXPECT_EQ(master.unexpected(UnexpectedFrame::Malformed).count, 2u);
-  EXPECT_EQ(master.unexpected(UnexpectedFrame::Malformed).time, at_ms(8));
+  EXPECT_EQ(master.foreign().unexpected(UnexpectedFrame::Malformed).count, 2u);
+  EXPECT_EQ(master.foreign().unexpected(UnexpectedFrame::Malformed).time, at_ms(8));
 }
 
 TEST(MasterReceiving, MeasuresTheLoadOfOwnAndOthersFrames) {

@@ -203,9 +203,8 @@ TEST(MasterTiming, SdoTimesOutAndFreesTheClient) {
   EXPECT_EQ(
       node.sdo().take_result()->text(),
       "node 3: read of 0x6041:00 failed: abort 0x05040000 SDO protocol timed out (sent by this host; last "
-      "sent to the drive: 603#4041600000000000); no answer came in time: check the drive's power, node id "
-      "and "
-      "bit rate");
+      "sent to the drive: 603#4041600000000000); no answer came within 0.25 s: check the drive's power, "
+      "node id and bit rate; where it answers later than that, raise sdo_timeout of the bus");
 }
 
 }  // namespace

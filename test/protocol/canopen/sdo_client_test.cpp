@@ -169,9 +169,25 @@ TEST_F(SdoClientTest, WrongToggleAbortsUploadAndDownload) {
 TEST_F(SdoClientTest, UnknownCommandForThisObjectIsAborted) {
   client.start_upload({0x6041, 0}, now);
   client.next_frame(now);
-  reply({0x60, 0x41, 0x60, 0, 0, 0, 0, 0});
+  reply({0xE0, 0x41, 0x60, 0, 0, 0, 0, 0});
   expect_sent({0x80, 0x41, 0x60, 0, 0x01, 0x00, 0x04, 0x05});
   EXPECT_EQ(client.take_result()->abort_code, 0x05040001u);
+}
+
+// The answer to a write comes after its time-out, when the same object is being read; and the reverse.
+TEST_F(SdoClientTest, LateAnswerOfTheOtherDirectionIsNotTaken) {
+  client.start_upload({0x6060, 0}, now);
+  client.next_frame(now);
+  reply({0x60, 0x60, 0x60, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(client.busy());
+  reply({0x4F, 0x60, 0x60, 0, 7, 0, 0, 0});
+  EXPECT_EQ(client.take_result()->as_u8(), 7);
+  client.start_download({{0x6060, 0}, 1, 7}, now);
+  client.next_frame(now);
+  reply({0x4F, 0x60, 0x60, 0, 1, 0, 0, 0});
+  EXPECT_TRUE(client.busy());
+  reply({0x60, 0x60, 0x60, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(client.take_result()->ok);
 }
 
 TEST_F(SdoClientTest, UploadOfMoreOrLessThanAnnouncedIsAborted) {

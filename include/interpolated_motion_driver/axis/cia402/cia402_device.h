@@ -43,6 +43,8 @@ class Cia402Device {
   /// reference, and sets `mode` when it has read 0x6061.
   virtual Cia402Report& report() = 0;
   virtual const Cia402Report& report() const = 0;
+  /// The drive stands, or almost, at `position` (counts): read by SDO at `now`, since no PDO comes.
+  virtual void take_position(std::int32_t position, HostTime now) = 0;
   /// Latest position and velocity, in joint units; one object for the device's life.
   virtual const AxisFeedback& feedback() const = 0;
   /// An EMCY message in words, by the drive's own list of codes, for Axis::fault_text().

@@ -11,7 +11,8 @@ namespace interpolated_motion::axis {
 struct Cia402Report {
   cia402::Statusword statusword;  ///< 0x6041; 0 until the first has arrived
   std::int8_t mode = 0;           ///< 0x6061
-  HostTime status_time{};         ///< when the statusword arrived; the epoch: none yet
+  cia402::State state() const { return statusword.state(); }
+  HostTime status_time{};  ///< when the statusword arrived; the epoch: none yet
 };
 
 }  // namespace interpolated_motion::axis

@@ -39,8 +39,11 @@ class DriveErrors {
   std::uint16_t code() const { return code_; }
   /// "EMCY 0x8611 following error (error register 0x21: ...)"; empty without an error.
   const std::string& text() const { return text_; }
+  /// The same after the error that came first and may be the cause of it: "EMCY ..., then EMCY ...".
+  std::string history() const { return first_ == text_ ? text_ : first_ + ", then " + text_; }
 
  private:
+  void set(const canopen::Emcy& emcy);
   void take_read(std::uint8_t error_register, std::uint32_t newest, HostTime now);
   SdoSequence::Step read_newest(std::uint8_t error_register, HostTime now);
 
@@ -50,6 +53,7 @@ class DriveErrors {
   std::function<std::string()> who_;
   std::uint16_t code_ = 0;
   std::string text_;
+  std::string first_;  ///< text of the one since which there has always been one
 };
 
 }  // namespace interpolated_motion::axis

@@ -8,7 +8,9 @@
 #include "interpolated_motion_driver/axis/cia402/cia402_device.h"
 #include "interpolated_motion_driver/axis/cia402/controlword_link.h"
 #include "interpolated_motion_driver/axis/cia402/drive_errors.h"
+#include "interpolated_motion_driver/axis/cia402/node_watch.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_sequence.h"
+#include "interpolated_motion_driver/axis/cia402/sdo_stop.h"
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/protocol/cia402/modes.h"
 
@@ -21,6 +23,7 @@ struct Cia402Settings {
   int controlword_rpdo;            ///< 1..4: the synchronous RPDO that carries 0x6040
   HostDuration heartbeat_timeout;  ///< for messages; the watch itself is the bus master's
   HostDuration bring_up_timeout;   ///< longest wait for the drive's first answer
+  HostDuration feedback_timeout;   ///< longest silence of its PDOs
 };
 
 /// A CiA 402 drive on CANopen from the first question to the enabled power stage, and back: found,
@@ -58,29 +61,29 @@ class Cia402PowerStage final : public AxisBase {
   void listen(HostTime now) override;
   void go_on(HostDuration away, HostTime now) override;
   void poll_stage(HostTime now) override;
-  void forget_drive() override { configured_ = false; }
+  void forget_drive() override;
   void probe(HostTime now) override;
   std::optional<bool> probe_answer() const override;
   std::string no_answer_text() const override;
   void configure(HostTime now) override;
   bool is_powered() const override;
-  void drop_work() override { sequence_.cancel(); }
+  void drop_work() override;
   void press_stop(HostTime now) override;
   bool stands() const override;
   std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
-  void watch_heartbeat(HostTime now);
+  void watch_node(HostTime now);
+  void take(NodeEvent event, HostTime now);
+  void watch_reports(HostTime now);
+  void ask(HostTime now);
   void watch_power_stage(HostTime now);
   void poll_configuring(HostTime now);
   void poll_reports(HostTime now);
   void poll_selecting_mode(HostTime now);
   void poll_enabling(HostTime now);
-  void poll_disabling(HostTime now);
   void poll_resetting(HostTime now);
 
-  cia402::State drive_state() const { return report_.statusword.state(); }
-  SdoSequence::Step read_mode();
   bool walk_to(cia402::State target, HostTime now);
   std::string drive_fault() const;
 
@@ -96,8 +99,11 @@ class Cia402PowerStage final : public AxisBase {
   /// The stage has come from SDO to PDO: Configuring to the first reports, Enabling from the mode to the
   /// controlword.
   bool by_pdo_ = false;
-  bool configured_ = false;
-  bool silent_ = false;  ///< no heartbeat comes
+  bool configured_ = false;  ///< as bring-up has left it, for all that is known
+  bool listening_ = false;   ///< the bus is listened to before the drive is asked
+  bool asked_ = false;       ///< anything has ever been sent to the drive
+  NodeWatch watch_;
+  SdoStop sdo_stop_;
   DriveErrors errors_;
 };
 

@@ -30,7 +30,7 @@ class SdoSequence {
   enum class State { Idle, Running, Done, Failed };
 
   /// `node` must outlive the sequence, whose SDO client it uses: nobody else may while it runs.
-  explicit SdoSequence(canopen::NodeLink& node) : node_(node) {}
+  explicit SdoSequence(canopen::NodeLink& node) : node_(node), timeout_(node.sdo().timeout()) {}
 
   /// Without `check` the step must succeed.
   static Step read(canopen::ObjectAddress address, Check check = {});
@@ -46,7 +46,7 @@ class SdoSequence {
   void cancel();
 
   /// Takes the outcome that has come and begins the next step. A step without an answer is repeated, twice at
-  /// most.
+  /// most, with more patience each time: the answer may be late instead of lost.
   void poll(HostTime now);
   /// When the drive's answer is overdue; kNever while none is awaited.
   HostTime next_deadline() const;
@@ -65,6 +65,7 @@ class SdoSequence {
   void finish_step(const canopen::SdoResult& result);
 
   canopen::NodeLink& node_;
+  HostDuration timeout_;  ///< of the first attempt
   std::deque<Step> steps_;
   bool in_progress_ = false;
   int attempts_ = 0;

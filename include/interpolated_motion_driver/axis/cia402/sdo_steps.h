@@ -30,6 +30,8 @@ Step require_mode(cia402::Mode mode);
 Step write_u32(canopen::ObjectAddress address, std::uint32_t value);
 /// A drive that has no such object does without.
 Step write_if_present(const canopen::SdoWrite& write);
+/// Where the drive refuses `step`, it is also told where the value comes from: "drives/joint1/limits/...".
+Step because_of(Step step, const std::string& origin);
 /// In the order of the list; each must succeed.
 Steps writes(const std::vector<canopen::SdoWrite>& list);
 /// The writes of canopen::pdo_configuration(), which throws where the configuration is out of range.

@@ -37,6 +37,7 @@ class CyclicDevice final : public Cia402Device {
   std::uint16_t stop_word() const override;
   CyclicTelemetry& report() override { return telemetry_; }
   const CyclicTelemetry& report() const override { return telemetry_; }
+  void take_position(std::int32_t position, HostTime now) override;
   const AxisFeedback& feedback() const override { return feedback_; }
   std::string text_of(const canopen::Emcy& emcy) const override;
   std::string lost_by_restart() const override { return "its settings"; }

@@ -39,6 +39,11 @@ struct MotorLimits {
 /// `parameters.limits` through its transmission; `limit_margin` is not in it.
 MotorLimits motor_limits(const EposAxisParameters& parameters);
 
+/// The writes of the drive's own position limits, see position_limits(); the sequence ends where it refuses
+/// them.
+std::vector<SdoSequence::Step> epos_position_limit_steps(const EposAxisParameters& parameters,
+                                                         std::optional<double> present);
+
 /// The reads and writes that identify, verify and parameterise a drive in Pre-operational, in the order of
 /// "EPOS2 Interpolated Position Mode" with everything the driver relies on checked before. What is found goes
 /// to `facts`, which must outlive the sequence. Every check ends with a sentence that names the object, what

@@ -27,6 +27,7 @@ class EposDevice final : public Cia402Device {
   std::uint16_t stop_word() const override;
   EposTelemetry& report() override { return telemetry_; }
   const EposTelemetry& report() const override { return telemetry_; }
+  void take_position(std::int32_t position, HostTime now) override;
   const AxisFeedback& feedback() const override { return feedback_; }
   std::string text_of(const canopen::Emcy& emcy) const override;
   std::string fault_detail() const override;

@@ -23,6 +23,7 @@ struct CyclicParameters {
   HostDuration tick_phase{};         ///< of the first sample after boot, 0 .. servo_period
   HostDuration boot_time = std::chrono::milliseconds(200);          ///< 1 ms or more
   HostDuration sdo_response_time = std::chrono::microseconds(500);  ///< 0 or more
+  bool pdo_setup_only_pre_operational = true;  ///< PDO parameters written in Operational are aborted
 
   /// Share of a SYNC's deviation from the expected time by which the drive shifts its own grid of updates,
   /// above 0 .. 1; 1: no filter.

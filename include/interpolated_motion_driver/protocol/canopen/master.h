@@ -9,6 +9,7 @@
 
 #include "interpolated_motion_driver/protocol/canopen/bus_load.h"
 #include "interpolated_motion_driver/protocol/canopen/cob_id.h"
+#include "interpolated_motion_driver/protocol/canopen/foreign_traffic.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/protocol/canopen/heartbeat.h"
 #include "interpolated_motion_driver/protocol/canopen/nmt.h"
@@ -35,24 +36,9 @@ struct MasterParameters {
   std::size_t control_capacity = 256;  ///< frames, 16..65536
   std::size_t bulk_capacity = 128;     ///< frames of each node, 1..65536
   std::size_t emcy_capacity = 16;      ///< messages of each node, 1..65536
-};
-
-/// Why a received frame could not be used.
-enum class UnexpectedFrame {
-  UnknownCobId,  ///< identifier outside the predefined connection set
-  RemoteFrame,
-  ExtendedFrame,     ///< 29-bit identifier
-  UnconfiguredNode,  ///< a service of a node that was not added
-  OtherMaster,       ///< NMT, SYNC, TIME, RPDO, SDO request or heartbeat with this host's id, sent by another
-  Malformed,         ///< heartbeat or EMCY of a wrong length
-};
-inline constexpr int kUnexpectedFrameCauses = 6;  ///< values of UnexpectedFrame
-
-/// Frames of one cause: how many, and the last of them.
-struct UnexpectedFrames {
-  std::uint64_t count = 0;  ///< since the master was made
-  Frame last;               ///< only where `count` is not 0
-  HostTime time{};          ///< of `last`
+  /// How long the bus must have been without another master before this one sends anything.
+  HostDuration listen = HostDuration::zero();
+  bool alone = true;  ///< no other master is allowed on the bus; false: it is not looked for
 };
 
 /// The CANopen master of one bus, sans-IO: received frames go in with `on_frame`, frames to send come out of
@@ -72,6 +58,10 @@ struct UnexpectedFrames {
 /// An `isochronous` bus has drives that take one setpoint per SYNC and interpolate between two of them. A
 /// SYNC off its grid would make them take a setpoint at a wrong instant: there is none on request (the next
 /// periodic one serves), one that is late by more than half a period is left out, and none waits for another.
+///
+/// Nothing is sent before the bus has been listened to for `listen`, and while another master is heard there:
+/// SYNC and heartbeat begin when it is quiet, and whoever has something to say asks foreign().quiet() before.
+/// Once it has begun to talk a master goes on, whoever else comes.
 ///
 /// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
 /// made. Bulk frames (`NodeLink::send_record`) leave when no control frame waits, node after node in turn,
@@ -115,7 +105,8 @@ class Master {
   /// NMT command to one node or to `kAllNodes`. False when the control queue is full.
   bool send_nmt(NmtCommand command, std::uint8_t node);
   /// One SYNC, behind every control frame queued so far (SDO requests started so far included); on an
-  /// isochronous bus the next periodic one. False when the control queue is full.
+  /// isochronous bus the next periodic one; none while this master listens. False when the control queue is
+  /// full.
   bool request_sync(HostTime now);
 
   /// Drops everything that waits to be sent, control and bulk frames. For a bus that was down: a controlword
@@ -143,8 +134,8 @@ class Master {
   /// As of the latest time this master was given.
   double bus_load() const { return load_.load(now_); }
 
-  /// Frames that were not used, `count` 0 when there were none of that cause.
-  const UnexpectedFrames& unexpected(UnexpectedFrame cause) const;
+  /// What others say on the bus.
+  const ForeignTraffic& foreign() const { return foreign_; }
   /// "can0: 3 frames of nodes that are not configured, last: TPDO 1 of node 9, 189#3702"; empty when there
   /// were none.
   std::string unexpected_text(UnexpectedFrame cause) const;
@@ -176,7 +167,7 @@ class Master {
   void deliver(NodeLink& node, const CobIdMeaning& meaning, const ReceivedFrame& received);
   void deliver_emcy(NodeLink& node, const ReceivedFrame& received);
   void poll_nodes(HostTime now);
-  void count(UnexpectedFrame cause, const ReceivedFrame& received);
+  void on_other_master(const CobIdMeaning& meaning, const ReceivedFrame& received);
 
   std::string bus_name_;
   MasterParameters parameters_;
@@ -203,7 +194,7 @@ class Master {
   std::optional<Frame> time_stamp_;   ///< of the last SYNC, waits to be sent
   std::uint64_t time_stamps_ = 0;
   BusLoad load_;
-  std::array<UnexpectedFrames, kUnexpectedFrameCauses> unexpected_{};
+  ForeignTraffic foreign_;
 };
 
 }  // namespace interpolated_motion::canopen

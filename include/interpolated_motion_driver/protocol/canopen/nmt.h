@@ -33,6 +33,18 @@ std::string_view to_text(NodeState state);
 /// NMT command to one node, 1..127, or to all (`kAllNodes`).
 Frame nmt_frame(NmtCommand command, std::uint8_t node);
 
+/// An NMT command, and to which node: 1..127, or `kAllNodes`.
+struct NmtOrder {
+  NmtCommand command = NmtCommand::Start;
+  std::uint8_t node = 0;
+};
+
+/// The command in an NMT frame; empty where the frame is none or the command is not one of the above.
+std::optional<NmtOrder> decode_nmt(const Frame& frame);
+
+/// "start", "enter pre-operational", ...; empty for a value that is none of the above.
+std::string_view to_text(NmtCommand command);
+
 /// Heartbeat of `node` in `state`.
 Frame heartbeat_frame(std::uint8_t node, NodeState state);
 

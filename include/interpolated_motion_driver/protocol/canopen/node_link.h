@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "interpolated_motion_driver/protocol/canopen/cob_id.h"
 #include "interpolated_motion_driver/protocol/canopen/emcy.h"
@@ -12,6 +13,7 @@
 #include "interpolated_motion_driver/protocol/canopen/heartbeat.h"
 #include "interpolated_motion_driver/protocol/canopen/nmt.h"
 #include "interpolated_motion_driver/protocol/canopen/ring.h"
+#include "interpolated_motion_driver/protocol/canopen/sdo_answers.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_client.h"
 #include "interpolated_motion_driver/protocol/canopen/sync_answers.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -38,6 +40,7 @@ class NodeLink {
   /// Object access, and the watch over the node's heartbeat; they live as long as the node.
   SdoClient& sdo() { return sdo_; }
   const SdoClient& sdo() const { return sdo_; }
+  const SdoAnswers& sdo_answers() const { return sdo_answers_; }
   HeartbeatConsumer& heartbeat() { return heartbeat_; }
   const HeartbeatConsumer& heartbeat() const { return heartbeat_; }
 
@@ -56,6 +59,9 @@ class NodeLink {
 
   /// NMT command to this node, in the control queue. False when the queue is full.
   bool send_nmt(NmtCommand command);
+
+  /// The last NMT command that another master has sent to this node since the last call.
+  std::optional<NmtCommand> take_foreign_nmt() { return std::exchange(foreign_nmt_, std::nullopt); }
 
   /// Puts RPDO `n` (1..4) of `length` (0..8) bytes into the control queue, behind everything queued before.
   /// False, and nothing queued, when the queue is full or an argument out of range.
@@ -89,8 +95,10 @@ class NodeLink {
   Master& master_;
   std::uint8_t id_;
   SdoClient sdo_;
+  SdoAnswers sdo_answers_;
   bool sdo_frame_queued_ = false;  ///< one SDO frame of a node at a time stands in the control queue
   HeartbeatConsumer heartbeat_;
+  std::optional<NmtCommand> foreign_nmt_;
   Ring<Emcy> emergencies_;
   std::uint64_t emergencies_lost_ = 0;
   TpdoHandler tpdo_handler_;

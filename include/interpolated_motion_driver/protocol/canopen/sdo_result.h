@@ -49,6 +49,7 @@ struct SdoResult {
   std::uint32_t abort_code = 0;                   ///< 0 when `ok`
   bool aborted_by_drive = false;                  ///< the drive sent the abort; else this host did
   SdoData data;                                   ///< what was read, or what was to be written
+  HostDuration timeout{};                         ///< for each answer
   Frame last_sent;  ///< the last frame of the transfer before it ended, for the error text
 
   /// The object as a number: its bytes, least significant first. Bytes that were not received count as zero,
