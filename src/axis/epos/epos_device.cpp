@@ -8,6 +8,7 @@
 
 #include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
+#include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
 
@@ -56,8 +57,14 @@ std::vector<SdoSequence::Step> EposDevice::bring_up_steps(SdoSequence& sequence)
 }
 
 std::vector<SdoSequence::Step> EposDevice::enable_steps() const {
-  return sdo_steps::writes(position_limits(parameters_.limits, parameters_.transmission, feedback_.position));
+  auto steps =
+      sdo_steps::writes(position_limits(parameters_.limits, parameters_.transmission, feedback_.position));
+  steps.push_back(watch_host_at_rest(parameters_));
+  return steps;
 }
+
+// A fault in motion has left the drive with the watch of a motion.
+std::vector<SdoSequence::Step> EposDevice::reset_steps() const { return {watch_host_at_rest(parameters_)}; }
 
 bool EposDevice::has_reported(HostTime since) const {
   return telemetry_.status_time > since && telemetry_.motion_time > since;
