@@ -43,6 +43,12 @@ void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
                 fmt::format("is {} s; it must be at least 1.5 times heartbeat_period ({} s)",
                             bus.heartbeat_timeout, bus.heartbeat_period));
   }
+  bus.watch_at_rest = reader.number("watch_at_rest", bus.watch_at_rest, 0.0, 60.0);
+  if (bus.watch_at_rest > 0.0 && bus.watch_at_rest < 1.5 * bus.heartbeat_period) {
+    reader.fail("watch_at_rest",
+                fmt::format("is {} s; it must be 0 (never) or at least 1.5 times heartbeat_period ({} s)",
+                            bus.watch_at_rest, bus.heartbeat_period));
+  }
   parse_feedback_timeout(reader, bus);
   bus.host_node_id = static_cast<int>(reader.integer("host_node_id", bus.host_node_id, 1, 127));
   bus.max_load = reader.number("max_load", bus.max_load, 0.01, 0.95);

@@ -19,6 +19,15 @@ constexpr GoalTime kSignalAllowance{0.1};
 
 bool begins_at_signal(const axis::Axis& axis) { return axis.start_lead() == GoalTime{0.0}; }
 
+/// What a bus can carry: as far as its share for records goes, or beside the questions to its drives.
+std::string capacity_text(const MissedDeadline& missed, const BusDemand& demand) {
+  if (missed.looks == 0.0)
+    return fmt::format("its share for records allows {:.0f} a second", 1.0 / demand.record_bus_time);
+  return fmt::format(
+      "beside the questions to its drives, which take {:.0f} % of it, it carries {:.0f} a second",
+      1e2 * missed.looks, std::max(0.0, 1.0 - missed.looks) / demand.watch.record_time);
+}
+
 }  // namespace
 
 Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, HostTime now) {
@@ -106,7 +115,7 @@ std::optional<Refusal> Group::plan_axes(const trajectory::GoalPlan& plan) {
 std::optional<Refusal> Group::check_budget(const trajectory::GoalPlan& plan) const {
   std::map<std::string, std::vector<BusDemand>> demands;
   for (const axis::Axis* axis : axes_)
-    demands[axis->bus()].push_back({axis->record_slots(), axis->record_bus_time()});
+    demands[axis->bus()].push_back({axis->record_slots(), axis->record_bus_time(), axis->bus_watch()});
   for (const auto& [bus, demand] : demands) {
     const auto missed = check_bus_budget(demand, GoalTime{0.0} - plan.lead_in);
     if (!missed) continue;
@@ -114,11 +123,10 @@ std::optional<Refusal> Group::check_budget(const trajectory::GoalPlan& plan) con
         GoalError::InvalidGoal,
         fmt::format(
             "Bus {} cannot carry the goal: at {:.3f} s a record would come {:.0f} ms too late; it needs "
-            "{:.0f} "
-            "records in the second before, and its share for records allows {:.0f} a second. Slow the goal "
-            "down, use smoother points, raise the bit rate, or put the drives on more buses.",
+            "{:.0f} records in the second before, and {}. Slow the goal down, use smoother points, raise the "
+            "bit rate, or put the drives on more buses.",
             bus, missed->time.count(), std::ceil(1e3 * missed->late.count()), missed->needed,
-            1.0 / demand.front().record_bus_time)};
+            capacity_text(*missed, demand.front()))};
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -73,6 +74,18 @@ bool Arm::has(const std::string& kind) const {
 double Arm::tolerated_absence() const {
   if (has("cyclic")) return 0.004;
   return std::min(0.05, 0.3 * commit_horizon);
+}
+
+// At rest only a cyclic drive needs its host. EPOS drives play what is in their FIFOs, whose fill is known to
+// be `commit_horizon`, and brake by themselves; how long a queue of a few segments lasts depends on the
+// segments.
+double Arm::tolerated_absence(motion::GroupState state) const {
+  using motion::GroupState;
+  constexpr double kPromised = 0.1;  // s, less than commit_horizon: docs/buses.md
+  if (has("cyclic")) return tolerated_absence();
+  if (state == GroupState::Idle || state == GroupState::Disabled) return std::numeric_limits<double>::max();
+  if (has("silverlode_ims") || state == GroupState::Streaming) return tolerated_absence();
+  return std::max(tolerated_absence(), commit_horizon - kPromised);
 }
 
 Arm read_arm(const std::string& configuration) {

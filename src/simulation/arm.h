@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/motion/snapshot.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 
 namespace interpolated_motion::simulation {
@@ -42,8 +43,10 @@ struct Arm {
   bool allow_partial = false;
 
   bool has(const std::string& kind) const;
-  /// Absence of the host that must not be noticed, s.
+  /// Absence of the host that must not be noticed whatever the group is doing, s.
   double tolerated_absence() const;
+  /// The same of an absence that begins in `state`.
+  double tolerated_absence(motion::GroupState state) const;
 };
 
 /// Throws std::invalid_argument or YAML::Exception where the text is not that of an arm.

@@ -84,7 +84,7 @@ void Ledger::add_absence(HostTime from, HostTime until) {
   last_absence_ = until;
   for (auto& [id, goal] : goals_) goal.due += until - from;
   for (auto& [id, request] : requests_) request.due += until - from;
-  if (seconds(until - from) > arm_.tolerated_absence()) disturb(until);
+  if (seconds(until - from) > arm_.tolerated_absence(state_)) disturb(until);
 }
 
 void Ledger::enter(motion::GroupState state, HostTime now) {

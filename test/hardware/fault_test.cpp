@@ -48,7 +48,7 @@ TEST_F(FaultInMotion, LostDriveStopsTheGroup) {
 TEST_F(FaultInMotion, LostDriveBrakesByItselfWhenItNoLongerHearsTheHost) {
   move();
   inject("joint1", "silence 1");
-  scenario->run(1.5);
+  scenario->run(2.5);  // more than commit_horizon, which its FIFO and its watch last
   inject("joint1", "silence 0");
   scenario->run(0.2);
   const double rest = scenario->positions()[0];

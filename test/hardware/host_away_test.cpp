@@ -29,6 +29,11 @@ Parameters patient_axis(Parameters p) {
   return p;
 }
 
+axis::EposAxisParameters patient_epos(axis::EposAxisParameters p) {
+  p.host_watch = host_duration(kPatience);
+  return patient_axis(p);
+}
+
 class EposHostAway : public HostStall {
  protected:
   EposHostAway() : HostStall(patient(bus_configuration(false))) {}
@@ -43,7 +48,7 @@ class EposHostAway : public HostStall {
 
   emulation::EposDrive& drive_ =
       world_.add<emulation::EposDrive>(bus_, drive_parameters<emulation::EposParameters>());
-  axis::EposAxis axis{patient_axis(axis_parameters<axis::EposAxisParameters>()), link.master(),
+  axis::EposAxis axis{patient_epos(axis_parameters<axis::EposAxisParameters>()), link.master(),
                       link.master().add_node(1)};
 };
 

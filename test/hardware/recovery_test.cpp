@@ -33,7 +33,7 @@ constexpr double kLook = 0.05;          ///< s, within the shortest disturbance
 constexpr double kUserReacts = 0.5;     ///< s, from the report to ~reset_faults
 constexpr double kSurelyStopped = 5.0;  ///< s, far beyond all time-outs
 
-enum class Kind { Epos, Silverlode };
+enum class Kind { Epos, EposShortHorizon, Silverlode };
 
 /// What becomes of the goal.
 enum class Ending { Succeeds, Either, Aborts };
@@ -205,9 +205,14 @@ void Recovery::move_again() {
   EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
 }
 
+YAML::Node arm_of_kind(Kind kind) {
+  if (kind == Kind::Silverlode) return six_axis_silverlode();
+  return kind == Kind::Epos ? six_axis() : six_axis("{commit_horizon: 0.5}");
+}
+
 Cost Recovery::measure(double instant) {
   cost_ = Cost{};
-  scenario_ = std::make_unique<Scenario>(fault_.kind == Kind::Epos ? six_axis() : six_axis_silverlode());
+  scenario_ = std::make_unique<Scenario>(arm_of_kind(fault_.kind));
   EXPECT_TRUE(scenario_->run_until_state(GroupState::Idle)) << scenario_->snapshot().fault;
   const auto accepted = scenario_->submit(line_goal());
   if (!accepted) {
@@ -257,33 +262,41 @@ TEST_P(Recovery, IsWithinItsBounds) {
 
 // Where the bounds come from. All joints brake at 20 rad/s^2, so from v = 1.57 r rad/s (r: reach) a joint
 // goes on for 0.062 r^2 rad instead of the 0.062 r that would keep the arm on the line: 0.062 r (1 - r) rad,
-// 0.016 at most. Where a heartbeat has to be missed, that takes 0.4..0.5 s (time-out 0.5 s, period 0.1 s) and
-// a look at the drives; a drive that is left alone goes its way for some of the 0.1 s longer or shorter than
-// the others (joint2: 1.26 rad/s), and one that has lost its supply stands while the others go on for all of
-// it. SilverLode drives have no heartbeat: a drive is missed when its reply fails to come, three on a line
-// and each with several tries; alone it plays what its queue holds and then stops with register 19.
+// 0.016 at most. Where the host has to miss a heartbeat, that takes 0.4..0.5 s (time-out 0.5 s, period 0.1 s)
+// and a look at the drives, and a drive that has lost its supply stands while the others go on for all of it;
+// for all that is known it goes on too, until it tells that it has restarted (after 1 s, and 0.2 s of
+// booting). An EPOS that does not hear its host goes on for what its FIFO holds: commit_horizon, 2 s, and up
+// to a record of 0.255 s more, so FIFOs that run dry do so up to that time apart (joint1: 1.57 rad/s, 0.40
+// rad); and one that is left alone goes all of its way, to and fro over 0.8 rad (joint2), while the others
+// stand. With a commit_horizon of 0.5 s it has 0.4 s less the time-out of the host, which is as long: a
+// record. SilverLode drives have no heartbeat: a drive is missed when its reply fails to come, three on a
+// line and each with several tries; alone it plays what its queue holds and then stops with register 19.
 constexpr Bounds kAllBrake{0.018, 0.6, 1.0};
-constexpr Bounds kOneAlone{0.1, 0.7, 1.0};
-constexpr Bounds kOneStands{0.5, 0.7, 1.0};
+constexpr Bounds kAllRunDry{0.42, 2.5, 1.0};
+constexpr Bounds kOneAlone{0.85, 2.5, 1.0};
+constexpr Bounds kOneAloneBriefly{0.4, 1.0, 1.0};
+constexpr Bounds kOneStands{0.5, 1.4, 1.0};
 constexpr Bounds kReplies{0.6, 1.5, 3.0};
 
 const std::vector<Disturbance> kDisturbances{
     {"EposBusOff", "bus-off of the host, 2 s", "can0", "bus_off 2.0", "", 2.0, Kind::Epos, Ending::Aborts,
-     kAllBrake},
+     kAllRunDry},
     {"EposPowerCycle", "one drive off, 1 s", "joint2", "power_cycle 1.0", "", 1.0, Kind::Epos, Ending::Aborts,
      kOneStands},
     {"EposCut100Milliseconds", "cable cut at the host, 0.1 s", "can0", "disconnect 1", "disconnect 0", 0.1,
      Kind::Epos, Ending::Succeeds, kAllBrake},
     {"EposCut1Second", "cable cut at the host, 1 s", "can0", "disconnect 1", "disconnect 0", 1.0, Kind::Epos,
-     Ending::Aborts, kAllBrake},
+     Ending::Aborts, kAllRunDry},
     {"EposCut10Seconds", "cable cut at the host, 10 s", "can0", "disconnect 1", "disconnect 0", 10.0,
-     Kind::Epos, Ending::Aborts, kAllBrake},
+     Kind::Epos, Ending::Aborts, kAllRunDry},
     {"EposStub100Milliseconds", "cable of one drive cut, 0.1 s", "joint2", "silence 1", "silence 0", 0.1,
      Kind::Epos, Ending::Aborts, kOneAlone},
     {"EposStub1Second", "cable of one drive cut, 1 s", "joint2", "silence 1", "silence 0", 1.0, Kind::Epos,
      Ending::Aborts, kOneAlone},
     {"EposStub10Seconds", "cable of one drive cut, 10 s", "joint2", "silence 1", "silence 0", 10.0,
      Kind::Epos, Ending::Aborts, kOneAlone},
+    {"EposStub10SecondsShortHorizon", "the same with commit_horizon 0.5", "joint2", "silence 1", "silence 0",
+     10.0, Kind::EposShortHorizon, Ending::Aborts, kOneAloneBriefly},
     {"SilverlodePowerCycle", "one drive off, 1 s", "joint2", "power_cycle 1.0", "", 1.0, Kind::Silverlode,
      Ending::Aborts, kReplies},
     {"SilverlodeCut100Milliseconds", "cable cut at the host, 0.1 s", "line0", "disconnect 1", "disconnect 0",

@@ -90,5 +90,47 @@ TEST(BusBudget, RecordsOfDifferentAxesTakeDifferentTimes) {
   EXPECT_TRUE(check_bus_budget({axis(0.1, 10.0, 1, 0.05), axis(0.1, 10.0, 1, 0.06)}, GoalTime{0.0}));
 }
 
+/// Of one axis that is asked every `period` s for `time` s, its records taking `record` s of the bus.
+BusDemand watched(BusDemand demand, double record, double time, double period) {
+  demand.watch = {record, time, time, period, GoalTime{0.0}};
+  return demand;
+}
+
+// Records fill 80 % of the bus, as they may; questions take another 25 %.
+TEST(BusBudget, QuestionsToTheDrivesAreCarriedToo) {
+  const BusDemand records = axis(0.1, 20.0, 4, 0.08);
+  EXPECT_FALSE(check_bus_budget({records}, GoalTime{0.0}));
+  EXPECT_FALSE(check_bus_budget({watched(records, 0.08, 0.03, 0.3)}, GoalTime{0.0}));
+  const auto missed = check_bus_budget({watched(records, 0.08, 0.075, 0.3)}, GoalTime{0.0});
+  ASSERT_TRUE(missed);
+  EXPECT_NEAR(missed->looks, 0.25, 1e-9);
+  EXPECT_GT(missed->time.count(), 0.4);
+}
+
+// The share is what records may fill by the configuration; beside it stand all questions.
+TEST(BusBudget, WhatRecordsReallyTakeCountsBesideQuestions) {
+  const BusDemand records = axis(0.1, 20.0, 4, 0.09);
+  EXPECT_FALSE(check_bus_budget({watched(records, 0.05, 0.1, 0.3)}, GoalTime{0.0}));
+}
+
+// A question of 0.3 s has just begun when the record comes.
+TEST(BusBudget, ARecordWaitsForAQuestionUnderWay) {
+  BusDemand demand = record(5.0, 5.5, 0.1);
+  demand.watch = {0.1, 0.001, 0.3, 100.0, GoalTime{0.0}};
+  EXPECT_FALSE(check_bus_budget({demand}, GoalTime{0.0}));
+  demand.slots[0].deadline = GoalTime{5.35};
+  EXPECT_TRUE(check_bus_budget({demand}, GoalTime{0.0}));
+}
+
+// A drive that is started before its queue is filled: what is released at the start costs time as well.
+TEST(BusBudget, WhatGoesAfterTheStartCommandIsNotLoadedBefore) {
+  BusDemand demand;
+  demand.record_bus_time = 0.3;
+  demand.slots.assign(8, {GoalTime{-1.0}, GoalTime{0.5}});
+  EXPECT_FALSE(check_bus_budget({demand}, GoalTime{0.0}));
+  demand.watch = {0.3, 0.001, 0.001, 10.0, GoalTime{1.1}};
+  EXPECT_TRUE(check_bus_budget({demand}, GoalTime{0.0}));
+}
+
 }  // namespace
 }  // namespace interpolated_motion::motion

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/axis_notes.h"
+#include "interpolated_motion_driver/axis/bus_watch.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -137,6 +138,8 @@ class Axis {
   virtual std::vector<RecordSlot> record_slots() const = 0;
   /// Seconds of bus one record takes, as share of the bus that records may fill.
   virtual double record_bus_time() const = 0;
+  /// What else it asks of the bus in motion, and what its records really take.
+  virtual BusWatch bus_watch() const { return {}; }
   /// Loads the plan into the FIFO and verifies that it got there: Loading, then Loaded.
   virtual void load(HostTime now) = 0;
   /// Starts the motion. An axis without a lead puts its start command on the bus, to be obeyed at the next

@@ -38,6 +38,7 @@ class ComposedAxis : public Axis {
   }
   std::vector<RecordSlot> record_slots() const override { return player_->record_slots(); }
   double record_bus_time() const override { return player_->record_bus_time(); }
+  BusWatch bus_watch() const override { return player_->bus_watch(); }
   void load(HostTime now) override { player_->load(now); }
   void arm(HostTime begin, HostTime now) override { player_->arm(begin, now); }
   HostTime path_begin() const override { return player_->path_begin(); }

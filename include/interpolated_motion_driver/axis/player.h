@@ -43,6 +43,7 @@ class Player {
   virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
   virtual std::vector<RecordSlot> record_slots() const = 0;
   virtual double record_bus_time() const = 0;
+  virtual BusWatch bus_watch() const { return {}; }
   /// As Axis: Loading, Loaded; Moving; Stopping, then Ready. What fails on the way is a fault of the power
   /// stage.
   virtual void load(HostTime now) = 0;

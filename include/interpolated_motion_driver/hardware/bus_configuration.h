@@ -76,6 +76,7 @@ struct BusConfiguration {
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
   double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats
   double heartbeat_timeout = 0.5;     ///< s without a heartbeat until the other side counts as lost
+  double watch_at_rest = 0.0;         ///< s, the same of an EPOS at rest; 0: never
   double feedback_timeout = 0.5;      ///< s without a position from a drive in motion until the motion ends
   int host_node_id = 127;             ///< CANopen node id of this host
   double max_load = 0.6;              ///< share of the bit rate that motion records may fill, 0..1

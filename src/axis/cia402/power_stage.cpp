@@ -216,7 +216,9 @@ void Cia402PowerStage::reset_fault(HostTime now) {
   if (stage() != Stage::Fault) return;
   enter(Stage::Resetting, now);
   by_pdo_ = false;
-  sequence_.start({errors_.read(now)}, now);
+  std::vector<SdoSequence::Step> steps = device_.reset_steps();
+  steps.insert(steps.begin(), errors_.read(now));
+  sequence_.start(std::move(steps), now);
 }
 
 // Nothing is cleared that has not been read.

@@ -77,7 +77,7 @@ std::string CyclicDevice::description() const {
 }
 
 std::vector<SdoSequence::Step> CyclicDevice::enable_steps() const {
-  auto steps = pdo_check({cyclic_pdo::target_rpdo(), cyclic_pdo::controlword_rpdo(),
+  auto steps = pdo_check({cyclic_pdo::target_rpdo(facts_.takes_velocity), cyclic_pdo::controlword_rpdo(),
                           cyclic_pdo::status_tpdo(), cyclic_pdo::velocity_tpdo(parameters_.sync_period)},
                          node_.id());
   sdo_steps::append(steps, cyclic_position_limit_steps(parameters_, feedback_.position));

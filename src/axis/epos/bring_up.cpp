@@ -10,6 +10,7 @@
 #include "interpolated_motion_driver/axis/cia402/position_limits.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
 #include "interpolated_motion_driver/axis/cia402/value_origin.h"
+#include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/axis/epos/telemetry.h"
 #include "interpolated_motion_driver/protocol/canopen/sdo_abort.h"
 #include "interpolated_motion_driver/protocol/cia402/interpolation_data_record.h"
@@ -169,13 +170,11 @@ Steps supervision(const EposAxisParameters& parameters) {
   const auto ms = [](HostDuration d) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(d).count();
   };
-  const auto consumer = static_cast<std::uint32_t>(parameters.host_node_id) << 16 |
-                        static_cast<std::uint32_t>(ms(parameters.heartbeat_timeout));
   const double counts =
       std::abs(parameters.transmission.counts_per_radian()) * parameters.max_following_error;
   return {SdoSequence::write(sdo_write<std::uint16_t>(
               object::kProducerHeartbeat, static_cast<std::uint16_t>(ms(parameters.heartbeat_period)))),
-          write_u32(object::kConsumerHeartbeat1, consumer),
+          watch_host_at_rest(parameters),
           SdoSequence::write(
               sdo_write<std::int16_t>(object::kAbortConnectionOption, parameters.abort_connection_option)),
           SdoSequence::write(

@@ -8,6 +8,7 @@
 
 #include "interpolated_motion_driver/axis/cia402/pdo_check.h"
 #include "interpolated_motion_driver/axis/cia402/sdo_steps.h"
+#include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/protocol/cia402/emergency.h"
 
@@ -60,8 +61,12 @@ std::vector<SdoSequence::Step> EposDevice::enable_steps() const {
                           epos_pdo::motion_tpdo(), epos_pdo::buffer_tpdo(facts_.free_records_mapped)},
                          node_.id());
   sdo_steps::append(steps, epos_position_limit_steps(parameters_, feedback_.position));
+  steps.push_back(watch_host_at_rest(parameters_));
   return steps;
 }
+
+// A fault in motion has left the drive with the watch of a motion.
+std::vector<SdoSequence::Step> EposDevice::reset_steps() const { return {watch_host_at_rest(parameters_)}; }
 
 bool EposDevice::has_reported(HostTime since) const {
   return telemetry_.status_time > since && telemetry_.motion_time > since;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/protocol/canopen/object.h"
 #include "interpolated_motion_driver/protocol/cia402/epos_objects.h"
 #include "interpolated_motion_driver/protocol/cia402/objects.h"
@@ -46,7 +47,8 @@ void FifoLoader::clear(HostTime now) {
   sender_.withdraw();
   enter(Step::Clearing, now);
   const auto open = sdo_write<std::uint8_t>(object::kBufferClear, cia402::kBufferOpen);
-  stage_.sequence().start({close_fifo(), SdoSequence::write(open), read_demand(demand_)}, now);
+  stage_.sequence().start(
+      {watch_host_in_motion(parameters_), close_fifo(), SdoSequence::write(open), read_demand(demand_)}, now);
 }
 
 void FifoLoader::enter(Step step, HostTime now) {

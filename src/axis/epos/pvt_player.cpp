@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
 #include "interpolated_motion_driver/trajectory/remainder.h"
 
@@ -30,7 +31,7 @@ PvtPlayer::PvtPlayer(Cia402PowerStage& stage, EposDevice& drive)
       drive_(drive),
       sender_(drive.node(), feed_, clock_),
       watch_(drive, stage.sequence(), feed_, sender_, clock_),
-      loader_(stage, feed_, sender_, watch_) {}
+      loader_(stage, drive.parameters(), feed_, sender_, watch_) {}
 
 // For the power stage.
 
@@ -105,7 +106,7 @@ HostDuration PvtPlayer::longest_motion(HostTime now) const {
   const double queued = feed_.time_ahead(played) * (1.0 + PlaybackClock::kMaxError);
   const canopen::HeartbeatConsumer& heartbeat = drive_.node().heartbeat();
   const HostTime heard = std::max(drive_.feedback().time, heartbeat.last_heard());
-  const HostTime misses_host = heard + drive_.master().parameters().sync_period + p.heartbeat_timeout;
+  const HostTime misses_host = heard + drive_.master().parameters().sync_period + p.host_watch;
   const bool watches_host = p.abort_connection_option != 0 && heartbeat.lost();
   const double alone = watches_host ? std::max(0.0, seconds(misses_host - now)) : queued;
   const double fastest = feed_.fastest_ahead(played, drive_.counts_per_second(1));
@@ -208,6 +209,7 @@ void PvtPlayer::end_of_motion(HostTime now) {
   }
   rest_counts_ = feed_.final_position();
   enter(Phase::Ending, now);
+  watches_as_at_rest_ = false;
   stage_.controlword().send(cw::kEnableOperation, now);
 }
 
@@ -218,6 +220,12 @@ void PvtPlayer::poll_ending(HostTime now) {
     if (controlword.overdue(now)) controlword.send(cw::kEnableOperation, now);
     return;
   }
+  if (!watches_as_at_rest_) {
+    if (stage_.sequence().running()) return;
+    watches_as_at_rest_ = true;
+    stage_.sequence().start({watch_host_at_rest(drive_.parameters())}, now);
+  }
+  if (!stage_.sequence_done(now)) return;
   finished_ = true;
   enter(Phase::Ready, now);
 }
@@ -286,7 +294,8 @@ void PvtPlayer::poll_braking(HostTime now) {
 
 void PvtPlayer::start_emptying(HostTime now) {
   enter(Phase::Emptying, now);
-  stage_.sequence().start({close_fifo(), read_demand(rest_counts_)}, now);
+  stage_.sequence().start({close_fifo(), watch_host_at_rest(drive_.parameters()), read_demand(rest_counts_)},
+                          now);
 }
 
 // Halt is taken back last, when neither bit 4 nor a record could make the drive go on.

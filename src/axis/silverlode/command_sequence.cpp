@@ -23,6 +23,7 @@ void CommandSequence::start(std::vector<Step> steps, HostTime now) {
   steps_.assign(std::make_move_iterator(steps.begin()), std::make_move_iterator(steps.end()));
   state_ = State::Running;
   failure_.clear();
+  unheard_ = false;
   misunderstood_ = 0;
   waiting_since_ = now;
   poll(now);
@@ -75,6 +76,7 @@ bool CommandSequence::take(const silverlode::Outcome& outcome, HostTime now) {
     failure = device_.text(outcome);
   }
   if (failure) end(*failure);
+  unheard_ = failure && outcome.unknown();
   poll(now);
   return true;
 }

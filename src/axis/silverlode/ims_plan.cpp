@@ -9,15 +9,19 @@ namespace {
 
 /// Longest segment of a stream, as multiple of the shortest one: a segment is committed as a whole.
 constexpr std::int64_t kLongest = 2;
+/// Of the bound, the part with which a goal must be possible where segments may not be short: it is encoded
+/// again as it is played, at the rate of the drive's crystal, and then other segments must be found.
+constexpr double kTried = 0.95;
 
 // A segment must be there when the one before it has been executed.
 std::vector<RecordSlot> slots_of(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
-                                 const encoding::ImsStream& stream, GoalTime start) {
+                                 double filling_time, const encoding::ImsStream& stream, GoalTime start) {
   std::vector<double> begins{0.0};
   for (const ImsSegment& segment : stream.segments)
     begins.push_back(begins.back() + segment.time * parameters.scale.tick);
   std::vector<RecordSlot> slots = delivery.slots(begins, parameters.commit_horizon);
   for (RecordSlot& slot : slots) {
+    if (slot.release <= GoalTime{0.0}) slot.release = GoalTime{-filling_time};
     slot.release += start;
     slot.deadline += start;
   }
@@ -54,12 +58,35 @@ encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parame
   return encoding;
 }
 
+double ims_start_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                      const silverlode::LineMaster& line) {
+  const auto records =
+      static_cast<double>(line.device_count() * kSegmentsOfLead * delivery.records_per_segment());
+  const auto request = silverlode::rio_request(silverlode::kMaxAddress);
+  const HostDuration later = silverlode::real_exchange_time(line, request) - line.exchange_time(request);
+  return parameters.start_lead + records * seconds(later) / parameters.line_share;
+}
+
+double ims_filling_time(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                        const silverlode::LineMaster& line) {
+  const auto start = silverlode::ims_request(silverlode::kMaxAddress, parameters.ims_arguments);
+  const double wait = static_cast<double>(delivery.records_per_segment()) * delivery.record_time();
+  const double taken = static_cast<double>(line.device_count()) *
+                       (seconds(silverlode::real_exchange_time(line, start)) + wait);
+  return std::max(0.0, (1.0 - kLatestTold) * ims_start_lead(parameters, delivery, line) - taken);
+}
+
 Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& parameters,
-                                         const SegmentDelivery& delivery, const trajectory::Path& path,
-                                         std::int32_t rest_counts) {
-  const auto stream = encoding::encode_ims(path, ims_goal_encoding(parameters, delivery), rest_counts);
+                                         const SegmentDelivery& delivery, const silverlode::LineMaster& line,
+                                         const trajectory::Path& path, std::int32_t rest_counts) {
+  const encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery);
+  encoding::ImsEncoding tried = encoding;
+  if (delivery.shortest_segment() > 0.0) tried.bound_counts *= kTried;
+  const auto stream = encoding::encode_ims(path, tried, rest_counts);
   if (!stream) return stream.error();
-  return ImsPlan{path, slots_of(parameters, delivery, stream.value(), path.start_time()), std::nullopt};
+  const double filling_time = ims_filling_time(parameters, delivery, line);
+  return ImsPlan{path, slots_of(parameters, delivery, filling_time, stream.value(), path.start_time()),
+                 std::nullopt, encoding};
 }
 
 GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,

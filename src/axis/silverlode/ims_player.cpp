@@ -23,8 +23,6 @@ namespace {
 constexpr HostDuration kStartTimeout = 5s;
 /// Of the lead, the part that the first segment of waiting takes; the second one takes the rest.
 constexpr double kFirstWait = 0.5;
-/// Share of the lead that may be gone when the axis is told the begin.
-constexpr double kLatestTold = 0.3;
 /// Longest the drive may take beyond the duration of its segments, for the error of its clock and the report.
 constexpr HostDuration kOvertime = 500ms;
 
@@ -33,6 +31,13 @@ std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& p
   if (parameters.queue == SegmentQueue::Registers)
     return std::make_unique<RegisterDelivery>(context, parameters.segment_registers);
   return std::make_unique<QueueDelivery>(context, static_cast<std::size_t>(parameters.queue_depth));
+}
+
+/// Goal seconds per drive second for the next segment.
+double rate_for_next(const SegmentFeed& feed, const PlaybackClock& clock, HostTime begin) {
+  const HostTime knot = clock.host_time(feed.queue_end());
+  const double due = (feed.start_goal_time() + GoalTime{seconds(knot - begin)}).count();
+  return clock.goal_rate(due - feed.knot_goal_time().count());
 }
 
 }  // namespace
@@ -135,20 +140,33 @@ HostDuration ImsPlayer::longest_motion(HostTime now) const {
 // From a path to a drive that plays it.
 
 std::optional<Refusal> ImsPlayer::plan(const trajectory::Path& path, GoalTime) {
-  auto plan = plan_ims_goal(parameters_, *delivery_, path, rest_counts_);
+  auto plan = plan_ims_goal(parameters_, *delivery_, stage_.line(), path, rest_counts_);
   if (!plan) return plan.error();
   planned_ = std::move(plan.value());
   return std::nullopt;
 }
 
+GoalTime ImsPlayer::start_lead() const {
+  return GoalTime{ims_start_lead(parameters_, *delivery_, stage_.line())};
+}
+
+BusWatch ImsPlayer::bus_watch() const {
+  constexpr double kSmallest = 1e-9;  // so that what goes with the start command counts
+  const silverlode::LineMaster& line = stage_.line();
+  const double filling = ims_filling_time(parameters_, *delivery_, line);
+  // Where segments are as long as the line needs at its worst, questions are in that.
+  if (delivery_->shortest_segment() > 0.0)
+    return {delivery_->record_time(), 0.0, 0.0, 0.0, GoalTime{filling + kSmallest}};
+  return {delivery_->record_time(), seconds(look_time(line)), seconds(longest_look_time(line)),
+          seconds(stage_.pace().overdue()), GoalTime{filling + kSmallest}};
+}
+
 void ImsPlayer::load(HostTime now) {
   stream_origin_ = planned_.origin;
   stream_begin_ = GoalTime{0.0};
-  feed_.load(planned_.path,
-             stream_origin_ ? ims_stream_encoding(parameters_, *delivery_, stage_.line())
-                            : ims_goal_encoding(parameters_, *delivery_),
-             rest_counts_, delivery_->capacity());
-  feed_.wait(std::llround(kFirstWait * parameters_.start_lead / parameters_.scale.tick));
+  feed_.load(planned_.path, planned_.encoding, rest_counts_, delivery_->capacity());
+  planned_.lead = start_lead().count();
+  feed_.wait(std::llround(kFirstWait * planned_.lead / parameters_.scale.tick));
   finished_ = false;
   begin_ = kNever;
   second_wait_made_ = false;
@@ -163,11 +181,11 @@ void ImsPlayer::load(HostTime now) {
 
 void ImsPlayer::arm(HostTime begin, HostTime now) {
   if (phase_ != Phase::Loaded) return;
-  if (seconds(begin - now) < (1.0 - kLatestTold) * parameters_.start_lead) {
+  if (seconds(begin - now) < (1.0 - kLatestTold) * planned_.lead) {
     return stage_.fail(
         fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s before: the "
                     "host has stalled",
-                    seconds(begin - now), parameters_.start_lead),
+                    seconds(begin - now), planned_.lead),
         now);
   }
   begin_ = begin;
@@ -219,14 +237,8 @@ void ImsPlayer::feed(HostTime now) {
   const bool few = feed_.waiting(clock_.elapsed(now), true) < kLeastAhead;
   const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < horizon;
   const bool more = !feed_.all_sent() && (few || within_horizon);
-  if (const auto failure = delivery_->offer(more, rate_for_next(), now)) stage_.fail(*failure, now);
-}
-
-/// Goal seconds per drive second for the next segment.
-double ImsPlayer::rate_for_next() const {
-  const HostTime knot = clock_.host_time(feed_.queue_end());
-  const double due = (feed_.start_goal_time() + GoalTime{seconds(knot - begin_)}).count();
-  return clock_.goal_rate(due - feed_.knot_goal_time().count());
+  if (const auto failure = delivery_->offer(more, rate_for_next(feed_, clock_, begin_), now))
+    stage_.fail(*failure, now);
 }
 
 void ImsPlayer::watch_motion(HostTime now) {
@@ -237,7 +249,7 @@ void ImsPlayer::watch_motion(HostTime now) {
   const bool looked = status.io_time > clock_.start_time();
   if (looked && status.io.fault()) return stage_.fail("the drive reports: " + status.io.text(), now);
   if (looked && !status.io.trajectory_active()) return end_of_motion(now);
-  if (stage_.time().silence(now, std::max(known, clock_.start_time())) > parameters_.feedback_timeout) {
+  if (stage_.time().silence(now, std::max(known, clock_.start_time())) > stage_.pace().feedback_timeout()) {
     return stage_.fail(fmt::format("no position has come from the drive for {:.2f} s", seconds(now - known)),
                        now);
   }
@@ -295,7 +307,10 @@ void ImsPlayer::stop(HostTime now) {
 // A path that is still being made: it may change behind the segment that has been encoded last.
 
 std::optional<Refusal> ImsPlayer::plan_stream(HostTime origin, GoalTime rest) {
-  planned_ = {trajectory::with_rest(trajectory::Path(rest_position()), rest), {}, origin};
+  planned_ = {trajectory::with_rest(trajectory::Path(rest_position()), rest),
+              {},
+              origin,
+              ims_stream_encoding(parameters_, *delivery_, stage_.line())};
   return std::nullopt;
 }
 
@@ -321,7 +336,7 @@ GoalTime ImsPlayer::playback_of_feed(HostTime when) const {
   if (!feed_.loaded()) return GoalTime{0.0};
   if (clock_.running() && second_wait_made_) return feed_.goal_time_at(clock_.elapsed(when));
   if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - stage_.time().since())};
-  return feed_.start_goal_time() - GoalTime{parameters_.start_lead};
+  return feed_.start_goal_time() - GoalTime{planned_.lead};
 }
 
 void ImsPlayer::motion_status(HostTime now, AxisStatus& out) const {

@@ -18,14 +18,14 @@ namespace {
 constexpr HostDuration kRestPeriod = 100ms;
 /// How often a drive in fault is asked that does not answer: each time takes the line from the others.
 constexpr HostDuration kSilentPeriod = 1s;
-/// Periods after which a question no longer waits for an idle line.
+/// Periods at rest after which a question no longer waits for an idle line.
 constexpr int kOverdue = 4;
-/// The part of `feedback_timeout` after which it no longer waits for segments: a line that is slower than
-/// planned has always one waiting. Every other question is for the position, and an answer takes its time.
-constexpr int kPartOfTimeout = 3;
 /// Looks at a drive that is to come to rest where STP may have been lost or not obeyed: then it is sent
 /// again.
 constexpr int kLooksAtFault = 50;
+
+/// Requests of a bring-up that two drives have answered; a single one may be noise.
+constexpr std::uint64_t kManySecondReplies = 3;
 
 void require_finite(const SilverlodeAxisParameters& parameters, double value, const char* name) {
   if (std::isfinite(value) && value > 0.0) return;
@@ -43,6 +43,7 @@ SilverlodePowerStage::SilverlodePowerStage(SilverlodeAxisParameters parameters, 
       parameters_(std::move(parameters)),
       line_(line),
       device_(device),
+      pace_(parameters_, facts_, line),
       sequence_(device),
       status_(device, parameters_.transmission),
       commands_(parameters_, device, sequence_, status_) {
@@ -82,9 +83,7 @@ void SilverlodePowerStage::go_on(HostDuration away, HostTime now) {
 void SilverlodePowerStage::poll_stage(HostTime now) {
   switch (stage()) {
     case Stage::Configuring:
-      if (!facts_.found_fault.empty() && !sequence_.running()) note_found_fault(now);
-      if (sequence_done(now)) enter(Stage::Disabled, now);
-      return;
+      return poll_configuring(now);
     case Stage::Disabling:
       if (sequence_done(now)) enter(Stage::Disabled, now);
       return;
@@ -101,6 +100,8 @@ void SilverlodePowerStage::poll_stage(HostTime now) {
 // What waits for the line is served when the line becomes free, which is an event of its own.
 HostTime SilverlodePowerStage::next_deadline() const {
   const HostTime work = AxisBase::next_deadline();
+  // Places of the queue become free without a word of the drive.
+  if (player_->interpolates()) return std::min(work, time().polled() + kPollInterval);
   if (stage() == Stage::Offline || work != kNever) return work;
   return std::max(status_.asked_at() + look_period(), time().polled() + kPollInterval);
 }
@@ -123,8 +124,13 @@ void SilverlodePowerStage::forget_drive() {
   status_.forget();
 }
 
+/// A drive whose replies are late would answer each question but the first with the reply to the one before:
+/// so each is asked alone, and its reply is waited for.
 void SilverlodePowerStage::probe(HostTime now) {
-  sequence_.start({{silverlode::pol_request(device_.address()), {}}}, now);
+  silverlode::Request request = silverlode::pol_request(device_.address());
+  request.patient = true;
+  request.repeatable = false;
+  sequence_.start({{request, {}}}, now);
 }
 
 std::optional<bool> SilverlodePowerStage::probe_answer() const {
@@ -140,7 +146,26 @@ std::string SilverlodePowerStage::no_answer_text() const {
 }
 
 void SilverlodePowerStage::configure(HostTime now) {
+  second_replies_ = device_.statistics().second_replies;
   sequence_.start(commands_.bring_up(player_->queue_steps(), facts_), now);
+}
+
+// What was garbled or lost is tried again: nothing moves, and noise may be over soon.
+void SilverlodePowerStage::poll_configuring(HostTime now) {
+  if (!facts_.found_fault.empty() && !sequence_.running()) {
+    notes().add({true, fmt::format("{}: found with a fault, which is cleared now: the drive reports: {}.",
+                                   who(), std::exchange(facts_.found_fault, {}))},
+                now);
+  }
+  if (sequence_.unheard() && !time().expired(now, parameters_.bring_up_timeout)) return configure(now);
+  if (!sequence_done(now)) return;
+  const std::uint64_t second = device_.statistics().second_replies - second_replies_;
+  if (second < kManySecondReplies) return enter(Stage::Disabled, now);
+  fail(
+      fmt::format("{} requests were answered twice: two drives share address {}. Give each an address of its "
+                  "own",
+                  second, device_.address()),
+      now);
 }
 
 void SilverlodePowerStage::enable(HostTime now) {
@@ -166,12 +191,6 @@ void SilverlodePowerStage::reset_fault(HostTime now) {
   if (stage() == Stage::Fault || stage() == Stage::Offline || stage() == Stage::SwitchingOff) bring_up(now);
 }
 
-void SilverlodePowerStage::note_found_fault(HostTime now) {
-  notes().add({true, fmt::format("{}: found with a fault, which is cleared now: the drive reports: {}.",
-                                 who(), std::exchange(facts_.found_fault, {}))},
-              now);
-}
-
 // Watching.
 
 /// Asks the drive for its status when the line has nothing better to do, and after a while even if it has.
@@ -180,14 +199,14 @@ void SilverlodePowerStage::look_at_drive(HostTime now) {
   if (status_.asking()) return;
   const HostDuration waited = now - status_.asked_at();
   const HostDuration period = look_period();
-  const HostDuration overdue =
-      line_.bulk_waits() ? parameters_.feedback_timeout / kPartOfTimeout : kOverdue * period;
+  const bool in_motion = line_.bulk_waits() || player_->interpolates();
+  const HostDuration overdue = in_motion ? pace_.overdue() : kOverdue * period;
   if (waited < period || (!line_.idle() && waited < overdue)) return;
   status_.ask(player_->interpolates(), facts_.multi_register, now);
 }
 
 HostDuration SilverlodePowerStage::look_period() const {
-  if (player_->interpolates()) return parameters_.status_period;
+  if (player_->interpolates()) return pace_.period();
   const bool in_fault =
       stage() == Stage::Fault || stage() == Stage::FaultStopping || stage() == Stage::SwitchingOff;
   return in_fault && !status_.silence.empty() ? kSilentPeriod : kRestPeriod;

@@ -21,8 +21,17 @@ namespace {
 constexpr std::size_t kDeepestQueue = 16;
 /// After a queue was full that should not have been, the clock of the drive may be a little off.
 constexpr HostDuration kRetryInterval = 5ms;
+/// From the time a place is known to be free until the axis is polled in motion and the line is told, at
+/// most.
+constexpr double kNotice = 6e-3;
 /// Times in a row that a drive may refuse a segment as unreadable.
 constexpr int kMisunderstood = 3;
+
+/// Time of up to 5 digits, position and velocity of 10, acceleration of 7: more than that is not physical.
+silverlode::Request longest_segment() {
+  return silverlode::imw_request(silverlode::kMaxAddress, 65536, std::numeric_limits<std::int32_t>::min(),
+                                 1 << 23, std::numeric_limits<std::int32_t>::max());
+}
 
 }  // namespace
 
@@ -68,19 +77,20 @@ CommandSequence::Step QueueDelivery::try_one_more() {
 }
 
 double QueueDelivery::segment_time(const silverlode::LineMaster& line) {
-  // Time of up to 5 digits, position and velocity of 10, acceleration of 7: more than that is not physical.
-  const auto longest =
-      silverlode::imw_request(silverlode::kMaxAddress, 65536, std::numeric_limits<std::int32_t>::min(),
-                              1 << 23, std::numeric_limits<std::int32_t>::max());
-  return seconds(line.exchange_time(longest));
+  return seconds(line.exchange_time(longest_segment()));
+}
+
+double QueueDelivery::record_time() const {
+  return seconds(silverlode::real_exchange_time(line(), longest_segment()));
 }
 
 // A segment's place becomes free when the drive begins the segment `depth_` before it.
 std::vector<RecordSlot> QueueDelivery::slots(const std::vector<double>& begins, double horizon) const {
   std::vector<RecordSlot> slots(begins.size());
   for (std::size_t i = 0; i < begins.size(); ++i) {
-    const double place_free = i < depth_ ? 0.0 : begins[i - depth_];
-    slots[i] = {GoalTime{std::max(place_free, wanted_at(begins, i, horizon))}, GoalTime{begins[i]}};
+    const double place_free = i < depth_ ? 0.0 : begins[i - depth_] + kNotice;
+    const double release = std::max(place_free, wanted_at(begins, i, horizon));
+    slots[i] = {GoalTime{release}, GoalTime{begins[i]}};
   }
   return slots;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/axis/silverlode/look_pace.h"
 #include "interpolated_motion_driver/protocol/silverlode/registers.h"
 
 namespace interpolated_motion::axis {
@@ -65,16 +66,22 @@ double RegisterDelivery::record_bus_time() const {
   return segment_time(line()) / static_cast<double>(kWrites) / line_share();
 }
 
+double RegisterDelivery::record_time() const {
+  return seconds(silverlode::real_exchange_time(line(), longest_write()));
+}
+
 /// Time for the hand-over to be tried again, s.
 double RegisterDelivery::reserve() const {
   return registers_.lost_replies * seconds(line().longest_exchange_time(longest_hand_over()));
 }
 
 /// Within each segment the next one is handed over, with a single block written before, while the segments of
-/// all drives of the line may begin at once.
+/// all drives of the line may begin at once and a question may be under way.
 double RegisterDelivery::shortest_segment() const {
   const double writes = registers_.blocks > 1 ? 1.0 : static_cast<double>(kWrites);
-  return kNotice + reserve() + static_cast<double>(line().device_count()) * writes * record_bus_time();
+  const double all = static_cast<double>(line().device_count()) * writes;
+  const double with_look = all * record_time() + seconds(longest_look_time(line()));
+  return kNotice + reserve() + std::max(all * record_bus_time(), with_look);
 }
 
 // Five writes a segment: four into a block, which is free when the drive begins the segment that is in it,

@@ -13,6 +13,7 @@ SegmentFeed::Source::Source(const trajectory::Path& p, const encoding::ImsEncodi
 void SegmentFeed::load(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
                        std::int32_t start_counts, std::size_t depth) {
   widest_ = encoding.bound_counts;
+  shortest_ = encoding.min_segment_ticks * 8 / 10;
   start_goal_time_ = path.start_time();
   take(std::make_unique<Source>(
       path, encoding,
@@ -85,6 +86,14 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
     encoding::ImsEncoding wider = source_->encoding;
     wider.bound_counts *= 2.0;
     take(std::make_unique<Source>(source_->path, wider, source_->encoder.knot()));
+    refusal = encode_next(rate, stretch);
+  }
+  // A shortest segment has time for the worst that a line may do at once: a goal under way is worth a part of
+  // that.
+  while (refusal && source_->encoding.min_segment_ticks > shortest_) {
+    encoding::ImsEncoding shorter = source_->encoding;
+    shorter.min_segment_ticks = std::max(shortest_, shorter.min_segment_ticks * 9 / 10);
+    take(std::make_unique<Source>(source_->path, shorter, source_->encoder.knot()));
     refusal = encode_next(rate, stretch);
   }
   if (refusal) return *refusal;

@@ -3,6 +3,7 @@
 #include <any>
 #include <cstdint>
 
+#include "interpolated_motion_driver/axis/silverlode/ims_plan.h"
 #include "interpolated_motion_driver/axis/silverlode/line_start.h"
 #include "interpolated_motion_driver/axis/silverlode/queue_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode/register_delivery.h"
@@ -25,7 +26,7 @@ double segment_time(const SilverlodeSettings& settings, const silverlode::LineMa
 /// segments. s.
 double start_lead(const DriveConfiguration& drive, const Configuration& all,
                   const silverlode::LineMaster& line) {
-  constexpr double kSegmentsOfStart = 4.0;
+  constexpr auto kSegmentsOfStart = static_cast<double>(axis::kSegmentsOfLead);
   const BusConfiguration& bus = all.bus_of(drive);
   double lead = bus.serial.start_lead;
   for (const DriveConfiguration& other : all.drives) {

@@ -91,8 +91,7 @@ void Master::poll(HostTime now) {
   poll_nodes(now);
   if (!foreign_.listen(now)) return;
   if (sync_.poll(now)) queue_periodic_sync();
-  const auto heartbeat = heartbeat_.poll(now);
-  if (heartbeat && !heartbeat_queued_) heartbeat_queued_ = queue_control(*heartbeat, Kind::Heartbeat);
+  if (const auto heartbeat = heartbeat_.poll(now)) heartbeat_due_ = heartbeat;
 }
 
 void Master::queue_periodic_sync() {
@@ -185,6 +184,11 @@ const Frame* Master::peek_outgoing(HostTime now) {
     return &*time_stamp_;
   }
   drop_late_sync(now);
+  const bool sync_is_next = !control_.empty() && control_.front().kind == Kind::PeriodicSync;
+  if (heartbeat_due_ && !sync_is_next) {
+    peeked_ = Peeked::Heartbeat;
+    return &*heartbeat_due_;
+  }
   if (!control_.empty()) {
     peeked_ = Peeked::Control;
     return &control_.front().frame;
@@ -197,6 +201,7 @@ const Frame* Master::peek_outgoing(HostTime now) {
 
 void Master::pop_outgoing(HostTime now) {
   advance(now);
+  if (peeked_ == Peeked::Heartbeat) heartbeat_due_.reset();
   if (peeked_ == Peeked::TimeStamp) {
     time_stamp_.reset();
     ++time_stamps_;
@@ -221,7 +226,6 @@ void Master::pop_outgoing(HostTime now) {
 void Master::release_control() {
   const ControlFrame& sent = control_.front();
   if (sent.kind == Kind::PeriodicSync) periodic_sync_queued_ = false;
-  if (sent.kind == Kind::Heartbeat) heartbeat_queued_ = false;
   if (sent.kind == Kind::Sdo) nodes_[sent.node]->sdo_frame_queued_ = false;
   control_.pop();
 }
@@ -231,6 +235,7 @@ void Master::clear_outgoing() {
   while (!control_.empty()) release_control();
   for (NodeLink* node : in_order_) node->clear_records();
   time_stamp_.reset();
+  heartbeat_due_.reset();
   syncs_since_confirmation_ = 0;
   peeked_ = Peeked::None;
   foreign_.deafen();

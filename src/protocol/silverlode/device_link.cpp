@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "interpolated_motion_driver/protocol/silverlode/line_master.h"
 
 namespace interpolated_motion::silverlode {
@@ -138,15 +140,39 @@ void DeviceLink::count(const Outcome& outcome) {
     case OutcomeKind::Dropped:
       break;
   }
-  if (outcome.accepted() || outcome.kind == OutcomeKind::Refused) statistics_.garbled_in_a_row = 0;
+  if (!outcome.accepted() && outcome.kind != OutcomeKind::Refused) return;
+  statistics_.garbled_in_a_row = 0;
+  statistics_.late_by = HostDuration::zero();
+}
+
+std::string DeviceLink::cause_text(const Outcome& outcome) const {
+  const LinkStatistics& known = statistics_;
+  const std::string& line = master_.line_name();
+  if (outcome.unknown() && known.late_by > HostDuration::zero()) {
+    return fmt::format(
+        "; a reply came {:.3f} s after its request, too late by `reply_timeout` ({:.3f} s): raise "
+        "buses/{}/reply_timeout",
+        seconds(known.late_by), seconds(master_.parameters().reply_timeout), line);
+  }
+  if (outcome.kind != OutcomeKind::Garbled || known.garbled_in_a_row < kManyGarbledReplies) return {};
+  const bool alone = master_.device_count() == 1;
+  const bool noise = std::any_of(
+      master_.in_order_.begin(), master_.in_order_.end(),
+      [this](const DeviceLink* other) { return other != this && other->statistics_.garbled_in_a_row > 0; });
+  return fmt::format(
+      "; {} replies in a row were garbled{}", known.garbled_in_a_row,
+      alone   ? fmt::format(": noise, another rate than buses/{}/baud, or two drives share "
+                              "address {}",
+                            line, address_)
+      : noise ? fmt::format(", those of other addresses too: noise (shield, ground, "
+                            "termination), or another rate than buses/{}/baud",
+                            line)
+              : fmt::format(" and none of other addresses: two drives may share address {}", address_));
 }
 
 std::string DeviceLink::text(const Outcome& outcome) const {
-  const bool many_garbled =
-      outcome.kind == OutcomeKind::Garbled && statistics_.garbled_in_a_row >= kManyGarbledReplies;
   return fmt::format("{}: {} \"{}\" {}{}", name(), std::string(mnemonic(outcome.request.command)),
-                     outcome.request.text.printable(), result_text(outcome),
-                     many_garbled ? fmt::format("; two drives may share address {}", address_) : "");
+                     outcome.request.text.printable(), result_text(outcome), cause_text(outcome));
 }
 
 }  // namespace interpolated_motion::silverlode

@@ -61,6 +61,15 @@ const char* name_of(UnexpectedLine cause) {
   return "a line without its end";
 }
 
+/// A reply that nobody waits for any more: to the request before, which was given up or was `answered`.
+void note_stray(LinkStatistics& statistics, bool answered, HostDuration late_by) {
+  if (answered) {
+    ++statistics.second_replies;
+  } else {
+    statistics.late_by = std::max(late_by, HostDuration(1));
+  }
+}
+
 }  // namespace
 
 void LineMaster::begin_exchange(DeviceLink& device, DeviceLink::Waiting waiting, HostTime now) {
@@ -69,7 +78,7 @@ void LineMaster::begin_exchange(DeviceLink& device, DeviceLink::Waiting waiting,
   if (waiting.attempts > 1) ++device.statistics_.repeats;
   device.on_line_ = true;
   bulk_first_ = false;
-  last_sent_ = waiting.request.text;
+  last_.sent = waiting.request.text;
   parser_.reset();
 
   Exchange exchange;
@@ -91,7 +100,7 @@ void LineMaster::end_unanswered() {
 
 void LineMaster::send_broadcast(HostTime now) {
   const Broadcast broadcast = *broadcasts_.take();
-  last_sent_ = broadcast.request.text;
+  last_.sent = broadcast.request.text;
   parser_.reset();
   sent_broadcast_ = {broadcast.id, now + characters_time(broadcast.request.text.length())};
   free_at_ = sent_broadcast_.end + parameters_.guard;
@@ -124,7 +133,12 @@ void LineMaster::await_silence(HostTime time) {
 }
 
 void LineMaster::on_reply(const Reply& reply) {
-  if (!exchange_) return count(UnexpectedLine::NoRequest, reply.end);
+  if (!exchange_) {
+    const HostTime begin = reply.end - characters_time(parser_.line().length() + 1);
+    if (last_.device != nullptr && last_.device->address() == reply.address)
+      note_stray(last_.device->statistics_, last_.answered, begin - last_.request_end);
+    return count(UnexpectedLine::NoRequest, reply.end);
+  }
   const Request& request = exchange_->sent.request;
   if (reply.address != request.address) return ignore_line(UnexpectedLine::WrongAddress, reply.end);
   if (!is_answer(reply, request)) return ignore_line(UnexpectedLine::WrongEcho, reply.end);
@@ -138,6 +152,7 @@ void LineMaster::on_reply(const Reply& reply) {
   device.count(outcome);
   device.outcomes_.push(outcome);
   reply_delay_.add(std::max(outcome.reply_begin - exchange_->request_end, HostDuration(0)));
+  last_ = {last_.sent, &device, exchange_->request_end, true};
   end_exchange(std::max(reply.end, exchange_->request_end), parameters_.pause);
 }
 
@@ -167,7 +182,11 @@ void LineMaster::fail_attempt(OutcomeKind kind, const LineText& received, HostTi
   const DeviceLink::Waiting sent = exchange_->sent;
   const bool repeat =
       exchange_->may_repeat && sent.request.repeatable && sent.attempts <= parameters_.repeats;
-  end_exchange(std::max(time, exchange_->request_end), parameters_.guard);
+  last_ = {last_.sent, &device, exchange_->request_end, false};
+  const bool waits = sent.request.patient && kind == OutcomeKind::NoReply;
+  end_exchange(
+      std::max(time, exchange_->request_end),
+      waits ? std::max(kLateReplies * parameters_.reply_timeout, parameters_.guard) : parameters_.guard);
   bulk_first_ = sent.request.repeatable;
   if (!repeat) {
     device.outcomes_.push(outcome);
@@ -199,7 +218,7 @@ void LineMaster::count(UnexpectedLine cause, HostTime time) {
   UnexpectedLines& lines = unexpected_[static_cast<std::size_t>(cause)];
   ++lines.count;
   lines.last = parser_.line();
-  lines.sent = last_sent_;
+  lines.sent = last_.sent;
   lines.time = time;
 }
 

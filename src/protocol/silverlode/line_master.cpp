@@ -180,4 +180,12 @@ double LineMaster::load(HostTime now) const {
   return load.load(now);
 }
 
+HostDuration real_exchange_time(const LineMaster& line, const Request& request) {
+  constexpr HostDuration kStep = std::chrono::microseconds(500);
+  const HostDuration usual = line.exchange_time(request);
+  if (request.reply == ReplyKind::None) return usual;
+  const HostDuration seen = (line.reply_delay() + kStep - HostDuration(1)) / kStep * kStep;
+  return usual + std::max(seen - line.parameters().turnaround, HostDuration::zero());
+}
+
 }  // namespace interpolated_motion::silverlode

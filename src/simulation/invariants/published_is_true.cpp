@@ -66,6 +66,7 @@ void PublishedIsTrue::look(const Look& look) {
 }
 
 void DesiredIsSmooth::look(const Look& look) {
+  if (!look.is_host_there) return;
   const motion::Snapshot& snapshot = *look.snapshot;
   const bool known =
       desired_.size() == snapshot.joints.size() && !is_at_rest(state_) && !is_at_rest(snapshot.state);

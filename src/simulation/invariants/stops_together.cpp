@@ -27,7 +27,7 @@ bool StopsTogether::is_due(HostTime now) const {
     braking = std::max(braking, joint.max_velocity / joint.max_acceleration);
   double allowed = braking + kNotice;
   if (ledger().is_dead()) allowed += kWatch + arm().commit_horizon;
-  if (ledger().is_disturbed())
+  if (ledger().last_absence() > stopping_since_)
     allowed = std::max(allowed, seconds(ledger().last_absence() - stopping_since_) + allowed);
   return seconds(now - stopping_since_) > allowed;
 }

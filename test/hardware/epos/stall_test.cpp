@@ -14,7 +14,7 @@ hardware::BusConfiguration with_heartbeat(hardware::BusConfiguration bus, double
 }
 
 axis::EposAxisParameters impatient(axis::EposAxisParameters p, double heartbeat_timeout) {
-  p.heartbeat_timeout = host_duration(heartbeat_timeout);
+  p.heartbeat_timeout = p.host_watch = host_duration(heartbeat_timeout);
   p.feedback_timeout = milliseconds(250);
   return p;
 }

@@ -182,6 +182,24 @@ TEST(MasterTiming, SyncAndHeartbeatAreSentPeriodically) {
   EXPECT_EQ(sent, expected);
 }
 
+// After a stall of the host there is much to send, and the drives have waited for its heartbeat.
+TEST(MasterTiming, TheHeartbeatWaitsForNothingThatWasMadeBefore) {
+  MasterParameters parameters;
+  parameters.heartbeat_period = milliseconds(25);
+  Master master("can0", parameters);
+  NodeLink& node = master.add_node(3);
+  master.poll(at_ms(0));
+  ASSERT_EQ(drain(master, at_ms(0)), Texts{"77F#05"});
+  const std::uint8_t halt[] = {0x0F, 0x01};
+  ASSERT_TRUE(node.send_rpdo(2, halt, 2));
+  ASSERT_TRUE(node.sdo().start_upload({0x6041, 0}, at_ms(1)));
+  ASSERT_TRUE(master.request_sync(at_ms(1)));
+  ASSERT_TRUE(node.send_record(1, kData, 8));
+  master.poll(at_ms(100));
+  EXPECT_EQ(drain(master, at_ms(100)),
+            (Texts{"77F#05", "303#0F01", "603#4041600000000000", "080#", "203#0102030405060708"}));
+}
+
 TEST(MasterTiming, PeriodicFramesDoNotPileUpWhileTheBusIsDown) {
   MasterParameters parameters;
   parameters.sync_period = milliseconds(1);

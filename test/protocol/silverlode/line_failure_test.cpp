@@ -181,21 +181,92 @@ TEST(LineFailure, NoiseBeforeTheReplyDoesNoHarm) {
   EXPECT_EQ(line.master().dropped_characters(), 4u);
 }
 
-TEST(LineFailure, GarbledRepliesInARowTellOfTwoDrivesOnOneAddress) {
-  LineParameters parameters;
-  parameters.repeats = 0;
-  ScriptedLine line([](const std::string&) { return std::vector<Answer>{{"* 1\x11\r"}}; }, parameters);
-  DeviceLink& drive = line.master().add_device(17);
-  std::vector<std::string> texts;
-  for (int i = 0; i < 3; ++i) {
-    drive.request(hlt_request(17));
-    line.run_for(100 * kMs);
-    for (const Outcome& outcome : take_all(drive)) texts.push_back(drive.text(outcome));
+/// What is said of three replies in a row of address 17 that are garbled.
+class GarbledReplies : public testing::Test {
+ protected:
+  GarbledReplies() { parameters_.repeats = 0; }
+
+  static std::vector<Answer> answer(const std::string& request, bool all_garbled) {
+    if (all_garbled || request.rfind("@17", 0) == 0) return {{"* 1\x11\r"}};
+    return healthy(request);
   }
+
+  std::vector<std::string> texts_of(ScriptedLine& line, DeviceLink& drive) {
+    std::vector<std::string> texts;
+    for (int i = 0; i < 3; ++i) {
+      drive.request(hlt_request(17));
+      line.run_for(100 * kMs);
+      for (const Outcome& outcome : take_all(drive)) texts.push_back(drive.text(outcome));
+    }
+    return texts;
+  }
+
+  LineParameters parameters_;
+};
+
+TEST_F(GarbledReplies, OfTheOnlyDriveHaveSeveralCauses) {
+  ScriptedLine line([](const std::string& request) { return answer(request, false); }, parameters_);
+  DeviceLink& drive = line.master().add_device(17);
+  const std::vector<std::string> texts = texts_of(line, drive);
   ASSERT_EQ(texts.size(), 3u);
   EXPECT_EQ(texts[1], "line0 address 17: HLT \"@17 2\" garbled reply \"* 1\\x11\"");
-  EXPECT_EQ(texts[2], texts[1] + "; two drives may share address 17");
+  EXPECT_EQ(texts[2],
+            texts[1] +
+                "; 3 replies in a row were garbled: noise, another rate than buses/line0/baud, or two "
+                "drives share address 17");
   EXPECT_EQ(drive.statistics().garbled, 3u);
+}
+
+TEST_F(GarbledReplies, OfOneAddressAloneTellOfTwoDrivesThatShareIt) {
+  ScriptedLine line([](const std::string& request) { return answer(request, false); }, parameters_);
+  DeviceLink& drive = line.master().add_device(17);
+  DeviceLink& other = line.master().add_device(16);
+  other.request(ris_request(16));
+  const std::vector<std::string> texts = texts_of(line, drive);
+  ASSERT_EQ(texts.size(), 3u);
+  EXPECT_EQ(texts[2],
+            texts[1] +
+                "; 3 replies in a row were garbled and none of other addresses: two drives may share "
+                "address 17");
+}
+
+TEST_F(GarbledReplies, OfAllAddressesTellOfNoise) {
+  ScriptedLine line([](const std::string& request) { return answer(request, true); }, parameters_);
+  DeviceLink& drive = line.master().add_device(17);
+  line.master().add_device(16).request(ris_request(16));
+  const std::vector<std::string> texts = texts_of(line, drive);
+  ASSERT_EQ(texts.size(), 3u);
+  EXPECT_NE(texts[2].find("those of other addresses too: noise"), std::string::npos) << texts[2];
+  EXPECT_EQ(texts[2].find("share address"), std::string::npos) << texts[2];
+}
+
+// 41 ms: later than the time-out of 20 ms and a silence of 10 ms, so it would fall into the next attempt.
+TEST(LineFailure, ALateReplyToAPatientRequestIsRecognised) {
+  ScriptedLine line([](const std::string&) { return std::vector<Answer>{{"* 10\r", 41 * kMs}}; });
+  DeviceLink& drive = line.master().add_device(16);
+  Request request = pol_request(16);
+  request.patient = true;
+  request.repeatable = false;
+  drive.request(request);
+  line.run_for(1000 * kMs);
+  const std::vector<Outcome> outcomes = take_all(drive);
+  ASSERT_EQ(outcomes.size(), 1u);
+  EXPECT_EQ(outcomes[0].kind, OutcomeKind::NoReply);
+  EXPECT_NEAR(seconds(drive.statistics().late_by), 0.041, 1e-5);
+  EXPECT_EQ(drive.text(outcomes[0]),
+            "line0 address 16: POL \"@16 0\" no reply; a reply came 0.041 s after its request, too late by "
+            "`reply_timeout` (0.020 s): raise buses/line0/reply_timeout");
+}
+
+TEST(LineFailure, ASecondReplyToOneRequestIsCounted) {
+  ScriptedLine line([](const std::string&) {
+    return std::vector<Answer>{{"* 10\r", 2 * kMs}, {"* 10\r", 4 * kMs}};
+  });
+  DeviceLink& drive = line.master().add_device(16);
+  drive.request(emd_request(16));
+  line.run_for(100 * kMs);
+  EXPECT_EQ(take_all(drive).at(0).kind, OutcomeKind::Acknowledged);
+  EXPECT_EQ(drive.statistics().second_replies, 1u);
 }
 
 TEST(LineFailure, UnaskedCharactersKeepTheLineSilent) {

@@ -27,6 +27,8 @@ class Cia402Device {
   virtual std::vector<SdoSequence::Step> bring_up_steps(SdoSequence& sequence) = 0;
   /// What depends on where the drive stands when it is about to be enabled.
   virtual std::vector<SdoSequence::Step> enable_steps() const = 0;
+  /// What a drive in fault is to be told before its fault is reset; done without where it fails.
+  virtual std::vector<SdoSequence::Step> reset_steps() const { return {}; }
   /// Everything that the axis needs to be told once has been told after `since`.
   virtual bool has_reported(HostTime since) const = 0;
   /// The drive is configured and reports.

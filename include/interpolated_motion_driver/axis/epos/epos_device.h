@@ -23,6 +23,7 @@ class EposDevice final : public Cia402Device {
   std::string description() const override;
   std::vector<SdoSequence::Step> bring_up_steps(SdoSequence& sequence) override;
   std::vector<SdoSequence::Step> enable_steps() const override;
+  std::vector<SdoSequence::Step> reset_steps() const override;
   bool has_reported(HostTime since) const override;
   std::uint16_t stop_word() const override;
   EposTelemetry& report() override { return telemetry_; }

@@ -22,8 +22,9 @@ SdoSequence::Step close_fifo();
 class FifoLoader {
  public:
   /// All must outlive the loader.
-  FifoLoader(Cia402PowerStage& stage, RecordFeed& feed, RecordSender& sender, FifoWatch& watch)
-      : stage_(stage), feed_(feed), sender_(sender), watch_(watch) {}
+  FifoLoader(Cia402PowerStage& stage, const EposAxisParameters& parameters, RecordFeed& feed,
+             RecordSender& sender, FifoWatch& watch)
+      : stage_(stage), parameters_(parameters), feed_(feed), sender_(sender), watch_(watch) {}
 
   /// Begins to empty the FIFO; poll() goes on. For an enabled drive at rest that has its mode.
   void begin(HostTime now);
@@ -40,6 +41,7 @@ class FifoLoader {
   bool poll_verifying(HostTime now);
 
   Cia402PowerStage& stage_;
+  const EposAxisParameters& parameters_;
   RecordFeed& feed_;
   RecordSender& sender_;
   FifoWatch& watch_;

@@ -91,6 +91,8 @@ class PvtPlayer final : public Player {
   EposDevice& drive_;
   Phase phase_ = Phase::Off;
   std::int32_t rest_counts_ = 0;
+  bool watches_as_at_rest_ =
+      false;  ///< in Ending: the drive has been told that it need not wait for the host
 
   PvtPlan planned_;  ///< of plan() and plan_stream(), until load()
   RecordFeed feed_;

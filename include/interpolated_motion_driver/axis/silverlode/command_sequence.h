@@ -50,6 +50,8 @@ class CommandSequence {
   bool running() const { return state_ == State::Running; }
   /// Why the sequence failed: what was sent, and how the drive answered.
   const std::string& failure() const { return failure_; }
+  /// It failed since a command got no whole reply: it may succeed when it is tried again.
+  bool unheard() const { return state_ == State::Failed && unheard_; }
 
  private:
   /// Repetitions of a command that the drive has not understood: it may have been garbled on its way.
@@ -66,6 +68,7 @@ class CommandSequence {
   int misunderstood_ = 0;
   State state_ = State::Idle;
   std::string failure_;
+  bool unheard_ = false;
 };
 
 }  // namespace interpolated_motion::axis

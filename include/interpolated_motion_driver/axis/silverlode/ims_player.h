@@ -46,10 +46,11 @@ class ImsPlayer final : public SegmentPlayer {
   void give_up(HostTime now) override;
 
   double rest_position() const override;
-  GoalTime start_lead() const override { return GoalTime{parameters_.start_lead}; }
+  GoalTime start_lead() const override;
   std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override { return planned_.slots; }
   double record_bus_time() const override { return delivery_->record_bus_time(); }
+  BusWatch bus_watch() const override;
   void load(HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override { return begin_; }
@@ -88,7 +89,6 @@ class ImsPlayer final : public SegmentPlayer {
   void poll_ending(HostTime now);
   void begin_motion(HostTime now);
   void feed(HostTime now);
-  double rate_for_next() const;
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   GoalTime playback_of_feed(HostTime when) const;

@@ -7,6 +7,7 @@
 #include "interpolated_motion_driver/axis/player.h"
 #include "interpolated_motion_driver/axis/silverlode/command_sequence.h"
 #include "interpolated_motion_driver/axis/silverlode/drive_commands.h"
+#include "interpolated_motion_driver/axis/silverlode/look_pace.h"
 #include "interpolated_motion_driver/axis/silverlode/silverlode_parameters.h"
 #include "interpolated_motion_driver/axis/silverlode/status.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_master.h"
@@ -54,6 +55,7 @@ class SilverlodePowerStage final : public AxisBase {
   const SilverlodeAxisParameters& parameters() const { return parameters_; }
   silverlode::LineMaster& line() const { return line_; }
   silverlode::DeviceLink& device() const { return device_; }
+  const LookPace& pace() const { return pace_; }
   SilverlodeStatus& status() { return status_; }
   CommandSequence& sequence() { return sequence_; }
   DriveCommands& commands() { return commands_; }
@@ -80,7 +82,7 @@ class SilverlodePowerStage final : public AxisBase {
   std::optional<bool> switch_off(HostTime now) override;
   std::string unseen_text() const override;
 
-  void note_found_fault(HostTime now);
+  void poll_configuring(HostTime now);
   void look_at_drive(HostTime now);
   HostDuration look_period() const;
   std::string state_text() const;
@@ -89,11 +91,13 @@ class SilverlodePowerStage final : public AxisBase {
   silverlode::LineMaster& line_;
   silverlode::DeviceLink& device_;
   SegmentPlayer* player_ = nullptr;
+  LookPace pace_;
   CommandSequence sequence_;
   SilverlodeStatus status_;
   DriveCommands commands_;
   SilverlodeFacts facts_;
-  bool heard_stop_ = false;  ///< whether the drive has answered to STP since a fault was found
+  std::uint64_t second_replies_ = 0;  ///< of the link, when the bring-up began
+  bool heard_stop_ = false;           ///< whether the drive has answered to STP since a fault was found
 };
 
 }  // namespace interpolated_motion::axis

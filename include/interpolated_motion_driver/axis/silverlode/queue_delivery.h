@@ -28,6 +28,8 @@ class QueueDelivery : public SegmentDelivery {
   Steps clear_steps() override;
   double shortest_segment() const override { return 0.0; }
   double record_bus_time() const override { return segment_time(line()) / line_share(); }
+  double record_time() const override;
+  std::size_t records_per_segment() const override { return 1; }
   std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const override;
 
   void begin() override;

@@ -37,6 +37,8 @@ class RegisterDelivery : public SegmentDelivery {
   Steps clear_steps() override;
   double shortest_segment() const override;
   double record_bus_time() const override;
+  double record_time() const override;
+  std::size_t records_per_segment() const override { return kWrites; }
   std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const override;
 
   void begin() override;

@@ -53,6 +53,10 @@ class SegmentDelivery {
   /// Time of the line that one record takes, s, as share of what records may fill. A record is what a slot
   /// stands for.
   virtual double record_bus_time() const = 0;
+  /// Time of the line that one record really takes, s, with drives that answer as late as they do; and
+  /// records that a segment is made of.
+  virtual double record_time() const = 0;
+  virtual std::size_t records_per_segment() const = 0;
   /// When what must cross the line for a path may and must do so. Segment i begins at `begins[i]` seconds
   /// after the path does, the segment that ends the motion at the last of them; those that begin within
   /// `horizon` are wanted in the drive.

@@ -120,7 +120,8 @@ class SegmentFeed {
 
   std::unique_ptr<Source> source_;
   std::unique_ptr<Source> way_on_;
-  double widest_ = 0.0;  ///< counts, up to where the bound may be doubled
+  double widest_ = 0.0;        ///< counts, up to where the bound may be doubled
+  std::int64_t shortest_ = 0;  ///< ticks, down to which a segment may be short where none else is found
   GoalTime start_goal_time_{0.0};
   std::int32_t start_counts_ = 0;
   std::int32_t final_counts_ = 0;

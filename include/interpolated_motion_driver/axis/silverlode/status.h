@@ -25,6 +25,8 @@ class SilverlodeStatus {
   /// Asks the next question. `moving`: what changes in motion is asked more often than what may have happened
   /// at rest.
   void ask(bool moving, bool multi_register, HostTime now);
+  /// So many questions are asked in turn in motion, of which one is for the position.
+  static int questions_in_motion(bool multi_register) { return multi_register ? 2 : 3; }
   /// Takes the outcome if it belongs to a question of this object.
   bool take(const silverlode::Outcome& outcome);
   /// Takes the actual position from an answer whose first register it is.

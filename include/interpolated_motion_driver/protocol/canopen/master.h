@@ -63,10 +63,12 @@ struct MasterParameters {
 /// SYNC and heartbeat begin when it is quiet, and whoever has something to say asks foreign().quiet() before.
 /// Once it has begun to talk a master goes on, whoever else comes.
 ///
-/// Two priorities. Control frames (NMT, SYNC, RPDOs, SDO, heartbeat) leave first, in the order they were
-/// made. Bulk frames (`NodeLink::send_record`) leave when no control frame waits, node after node in turn,
-/// paced so that they take at most `max_bulk_load` of the bit rate, each counted as 135 bits, the worst case:
-/// RPDO identifiers beat those of SDO and heartbeat, so an unpaced prefill would starve them.
+/// Three priorities. This host's heartbeat waits for nothing but a periodic SYNC, whose instant counts, and
+/// its time stamp: whatever else there is to send, the drives must not take this host for dead. Control
+/// frames (NMT, SYNC, RPDOs, SDO) leave in the order they were made. Bulk frames (`NodeLink::send_record`)
+/// leave when no control frame waits, node after node in turn, paced so that they take at most
+/// `max_bulk_load` of the bit rate, each counted as 135 bits, the worst case: RPDO identifiers beat those of
+/// SDO and heartbeat, so an unpaced prefill would starve them.
 class Master {
  public:
   /// `bus_name` is used in texts. Throws std::invalid_argument with parameter, value and range.
@@ -125,7 +127,7 @@ class Master {
   std::uint64_t time_stamps_sent() const { return time_stamps_; }
 
   /// Control frames not yet given to the transport.
-  std::size_t pending_control() const { return control_.size(); }
+  std::size_t pending_control() const { return control_.size() + (heartbeat_due_ ? 1U : 0U); }
   /// Control frames refused because the queue was full.
   std::uint64_t control_overflows() const { return control_overflows_; }
 
@@ -142,14 +144,14 @@ class Master {
 
  private:
   friend class NodeLink;
-  enum class Kind : std::uint8_t { Other, PeriodicSync, RequestedSync, Heartbeat, Sdo };
+  enum class Kind : std::uint8_t { Other, PeriodicSync, RequestedSync, Sdo };
   struct ControlFrame {
     Frame frame;              ///< as it is to be sent
     Kind kind = Kind::Other;  ///< what is to be noted when the transport takes it
     std::uint8_t node = 0;    ///< whose SDO it is; 0: no SDO
     HostTime due{};           ///< of a periodic SYNC
   };
-  enum class Peeked : std::uint8_t { None, TimeStamp, Control, Bulk };
+  enum class Peeked : std::uint8_t { None, TimeStamp, Heartbeat, Control, Bulk };
 
   bool queue_control(const Frame& frame, Kind kind = Kind::Other, std::uint8_t node = 0);
   bool push_control(const ControlFrame& frame);
@@ -180,7 +182,7 @@ class Master {
   Pacer pacer_;
   Peeked peeked_ = Peeked::None;
   bool periodic_sync_queued_ = false;
-  bool heartbeat_queued_ = false;
+  std::optional<Frame> heartbeat_due_;  ///< waits to be sent
   std::uint64_t control_overflows_ = 0;
 
   HeartbeatProducer heartbeat_;

@@ -24,6 +24,9 @@ struct LinkStatistics {
   std::uint64_t timeouts = 0;                            ///< attempts without a reply
   std::uint64_t garbled = 0;                             ///< attempts that ended with a garbled reply
   std::uint64_t garbled_in_a_row = 0;                    ///< since the last whole reply
+  std::uint64_t second_replies = 0;                      ///< to a request that was answered already
+  HostDuration late_by{};  ///< of the last reply that came after its time-out, since the last in time: from
+                           ///< the last bit of the request to the first of the reply; 0: none was late
 };
 
 /// One drive of a line as the master talks to it. Owned by the master and as long-lived; obtained from
@@ -65,8 +68,9 @@ class DeviceLink {
 
   /// Counted since the device was added.
   const LinkStatistics& statistics() const { return statistics_; }
-  /// `line0 address 17: IMW "@17 25 4000 ..." refused, NAK 6 (buffer full)`. Says so when the address has
-  /// answered with garbled replies several times in a row, as two drives on one address do.
+  /// `line0 address 17: IMW "@17 25 4000 ..." refused, NAK 6 (buffer full)`. Of a request without a whole
+  /// reply also what is known of the cause: replies come too late, or are garbled several times in a row,
+  /// those of this address alone as of two drives that share it, or of all as by noise.
   std::string text(const Outcome& outcome) const;
 
  private:
@@ -91,6 +95,7 @@ class DeviceLink {
   void give_up_repeat();
   void finish_unsent(const Waiting& waiting);
   void count(const Outcome& outcome);
+  std::string cause_text(const Outcome& outcome) const;
 
   LineMaster& master_;
   std::uint8_t address_;

@@ -44,13 +44,18 @@ struct UnexpectedLines {
 /// drive besides the exact time of the characters. A request that got no whole reply is repeated when it is
 /// repeatable; IMW and IMS never are, their outcome tells that it is unknown whether the drive has them.
 /// After a time-out, a malformed line, or characters nobody asked for, the line is left alone until it was
-/// silent for `guard` (at most ten times as long when it never is).
+/// silent for `guard` (at most ten times as long when it never is). After a time-out of a `patient` request
+/// it is left alone for `kLateReplies` times `reply_timeout`, so that a reply that is late is seen to be: it
+/// cannot be taken for that to the next request then.
 ///
 /// Order: broadcasts; control requests, device after device in turn; bulk requests, the earliest deadline
 /// first. A device that does not answer costs a time-out an attempt, so after each failed attempt a bulk
 /// request (of a device without control requests) goes before the next control request.
 class LineMaster {
  public:
+  /// So many times `reply_timeout` a reply to a `patient` request may be late and still be recognised.
+  static constexpr int kLateReplies = 5;
+
   /// `line_name` is used in texts. Throws std::invalid_argument with parameter, value and range.
   explicit LineMaster(std::string line_name, LineParameters parameters = {});
   ~LineMaster();
@@ -118,7 +123,7 @@ class LineMaster {
   double load(HostTime now) const;
   /// As of the latest time this master was given.
   double load() const { return load(now_); }
-  /// How late replies come, 0 before the first; `turnaround` is what is planned with.
+  /// How late replies come, 0 before the first.
   HostDuration reply_delay() const { return reply_delay_.mean(); }
 
   /// Lines that were no answer, `count` 0 when there were none of that cause.
@@ -141,6 +146,14 @@ class LineMaster {
     HostTime request_end{};        ///< its last bit on the line, computed
     HostTime reply_deadline{};     ///< when the attempt counts as unanswered
     LineText other;                ///< the last line received that was not the answer
+  };
+  /// What was on the line last.
+  struct Last {
+    LineText sent;  ///< the request
+    DeviceLink* device =
+        nullptr;             ///< that was asked by the last attempt that has ended; null: there was none
+    HostTime request_end{};  ///< of that attempt, its last bit on the line
+    bool answered = false;   ///< by a whole reply
   };
   enum class Peeked : std::uint8_t { None, Broadcast, Control, Bulk };
 
@@ -190,7 +203,7 @@ class LineMaster {
 
   ReplyParser parser_;
   std::optional<Exchange> exchange_;
-  LineText last_sent_;
+  Last last_;
   HostTime free_at_{};      ///< the line may be used from then on
   HostTime noise_begin_{};  ///< first and last of the latest characters without a request
   HostTime noise_end_{};
@@ -200,5 +213,9 @@ class LineMaster {
   std::array<UnexpectedLines, kUnexpectedLineCauses> unexpected_{};
   std::uint64_t echoes_ = 0;
 };
+
+/// As exchange_time(), with drives that answer as late as they do where that is more than `turnaround`; in
+/// steps, so that what is planned does not change with each reply.
+HostDuration real_exchange_time(const LineMaster& line, const Request& request);
 
 }  // namespace interpolated_motion::silverlode

@@ -32,7 +32,8 @@ struct Request {
   ReplyKind reply = ReplyKind::Ack;  ///< when the drive accepts it
   std::uint8_t reply_words = 0;      ///< of a data reply; 0: any number
   bool repeatable = true;            ///< false: executing it twice is not the same as once (IMW, IMS)
-  LineText text;                     ///< with the CR
+  bool patient = false;  ///< a reply that is late is waited for, see LineMaster: not while anything moves
+  LineText text;         ///< with the CR
 };
 
 /// Longest reply to a request the drive accepts, in characters with the CR: ACK 5, data 10 + 5 per word, 0
