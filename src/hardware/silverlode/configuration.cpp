@@ -57,11 +57,14 @@ void parse_emulated_unknowns(ParameterReader& reader, SilverDustParameters& emul
   emulated.acceleration_rounding =
       reader.choice("acceleration_rounding", emulated.acceleration_rounding,
                     {{"truncated", AccelerationRounding::Truncated}, {"exact", AccelerationRounding::Exact}});
-  emulated.bad_values =
-      reader.choice("bad_values", emulated.bad_values,
+  emulated.replies.bad_values =
+      reader.choice("bad_values", emulated.replies.bad_values,
                     {{"nak", BadValueReply::Nak}, {"command_error", BadValueReply::CommandError}});
-  emulated.disabled_start = reader.choice(
-      "disabled_start", emulated.disabled_start,
+  emulated.replies.segment_writes = reader.choice(
+      "segment_writes", emulated.replies.segment_writes,
+      {{"moves", SegmentWriteReply::Moves}, {"command_error", SegmentWriteReply::CommandError}});
+  emulated.replies.disabled_start = reader.choice(
+      "disabled_start", emulated.replies.disabled_start,
       {{"command_error", DisabledStartReply::CommandError}, {"busy", DisabledStartReply::Busy}});
 }
 
