@@ -111,8 +111,9 @@ void parse_queue(ParameterReader& reader, SilverlodeSettings& silverlode) {
 /// Segments are long beside the time between two setpoints; so how far off they are is a matter of the motion
 /// and not of the encoder.
 double default_stream_bound(const DriveConfiguration& drive) {
-  constexpr double kAtTheJoint = 0.02;  // rad
-  return kAtTheJoint * std::abs(drive.transmission.counts_per_radian());
+  constexpr double kAtTheJoint = 0.02;  // rad, or what in_unit() makes of it
+  return trajectory::in_unit(drive.limits.unit, kAtTheJoint) *
+         std::abs(drive.transmission.counts_per_radian());
 }
 
 }  // namespace
