@@ -124,6 +124,8 @@ int send(const ros::Publisher& publisher, const StreamOptions& options, const Po
           stdout);
       std::fflush(stdout);
     }
+    if (publisher.getNumSubscribers() == 0)
+      break;  // the next driver of that name is not the one that was asked
     if (lost) continue;
     trajectory_msgs::JointTrajectory message;
     message.header.stamp = stamp + ros::Duration(k * kPeriod);
@@ -177,6 +179,11 @@ bool stream_setpoints(ros::NodeHandle& ros_node, const StreamOptions& options) {
   for (int i = 0; i < 100 && publisher.getNumSubscribers() == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const int sent = send(publisher, options, rest);
+  if (publisher.getNumSubscribers() == 0) {
+    std::fputs(fmt::format("{} no longer takes setpoints: the driver has ended\n", options.node).c_str(),
+               stdout);
+    return false;
+  }
   std::fputs(fmt::format("{} setpoints sent, {} lost\n", sent, last_of(options) + kHeld - sent).c_str(),
              stdout);
   return comes_to_rest(arm, setpoint(rest, last_of(options) * kPeriod));
