@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/command_line/output_file.h"
+
 namespace interpolated_motion::command_line {
 
 namespace {
@@ -47,12 +49,11 @@ std::map<long, fs::path> files_of(const std::string& folder, const std::string& 
 
 /// False: there is a file of that name.
 bool write_new(const fs::path& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wx");
-  if (file == nullptr && errno == EEXIST) return false;
-  if (file == nullptr) fail(path, std::strerror(errno));
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  OpenFile file = create_output_file(path);
+  if (!file) return false;
+  const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
   const int error = errno;
-  if (std::fclose(file) == 0 && written) return true;
+  if (std::fclose(file.release()) == 0 && written) return true;
   const std::string why = std::strerror(written ? errno : error);
   std::error_code ignored;
   fs::remove(path, ignored);

@@ -1,24 +1,24 @@
 #include "interpolated_motion_driver/command_line/input_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "file_descriptor.h"
+
 namespace interpolated_motion::command_line {
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-[[noreturn]] void fail(const std::string& path) {
-  throw std::runtime_error(fmt::format("{} cannot be read: {}", path, std::strerror(errno)));
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+  throw std::runtime_error(fmt::format("{} cannot be read: {}", path, why));
 }
 
 /// yaml-cpp takes the first of two values, other programs the last.
@@ -38,14 +38,25 @@ void refuse_duplicates(const YAML::Node& node, const std::string& path) {
 
 }  // namespace
 
+OpenFile open_input_file(const std::string& path) {
+  FileDescriptor descriptor(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!descriptor) fail(path, std::strerror(errno));
+  const mode_t mode = status_of(descriptor.get()).st_mode;
+  if (S_ISDIR(mode)) fail(path, std::strerror(EISDIR));
+  if (!S_ISREG(mode)) fail(path, fmt::format("it is {}. Name a file", kind_text(mode)));
+  OpenFile file(fdopen(descriptor.get(), "r"));
+  if (!file) fail(path, std::strerror(errno));
+  descriptor.release();
+  return file;
+}
+
 std::string read_text_file(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "r"));
-  if (!file) fail(path);
+  const OpenFile file = open_input_file(path);
   std::string text;
   std::array<char, 4096> part{};
   while (const std::size_t size = std::fread(part.data(), 1, part.size(), file.get()))
     text.append(part.data(), size);
-  if (std::ferror(file.get()) != 0) fail(path);  // a directory can be opened, but not read
+  if (std::ferror(file.get()) != 0) fail(path, std::strerror(errno));
   return text;
 }
 

@@ -24,11 +24,14 @@ using hardware::UrdfLimits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The limits of a joint mean nothing to its drive: without the URDF, they are as wide as can be.
+// The limits of a joint mean nothing to its drive: without the URDF, they are as wide as can be, and it is
+// prismatic where the drive is said to move it by a length.
 UrdfLimits any_limits(const YAML::Node& drives) {
   UrdfLimits limits;
   for (const auto& drive : drives) {
     trajectory::JointLimits& joint = limits[drive.first.Scalar()];
+    if (drive.second.IsMap() && drive.second["travel_per_revolution"].IsDefined())
+      joint.unit = trajectory::JointUnit::Metre;
     joint.min_position = -kInfinity;
     joint.max_position = kInfinity;
     joint.max_velocity = std::numeric_limits<double>::max();

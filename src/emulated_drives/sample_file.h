@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 
+#include "interpolated_motion_driver/command_line/output_file.h"
 #include "interpolated_motion_driver/emulation/drive.h"
 
 namespace interpolated_motion::emulated_drives {
@@ -16,20 +15,15 @@ namespace interpolated_motion::emulated_drives {
 /// whenever the demand has come to rest.
 class SampleFile {
  public:
-  /// Throws std::runtime_error when the file cannot be written.
+  /// Throws std::runtime_error when the file cannot be written, is no regular one, or holds something else
+  /// than such samples.
   SampleFile(const std::string& folder, const std::string& name);
 
   void add(const emulation::DemandSample& sample);
 
  private:
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  void open();
-
   std::string path_;
-  std::unique_ptr<std::FILE, CloseFile> file_;
+  command_line::OpenFile file_;
   std::optional<emulation::DemandSample> last_;
   bool moving_ = false;
   bool rested_ = false;  ///< the demand did not change at the last sample

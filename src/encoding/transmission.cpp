@@ -7,6 +7,8 @@ constexpr double kTwoPi = 6.283185307179586476925286766559;
 constexpr double kSecondsPerMinute = 60.0;
 }  // namespace
 
+double Transmission::ratio_of_travel(double travel) { return kTwoPi / travel; }
+
 double Transmission::counts_per_radian() const { return direction * ratio * counts_per_revolution / kTwoPi; }
 
 double Transmission::counts(double joint_position) const {

@@ -95,8 +95,8 @@ void Assembly::add_drive(const Configuration& configuration, const DriveConfigur
                                  [&drive](const auto& one) { return one->name() == drive.bus; });
   const std::size_t joint = axes_.size();
   axes_.push_back(drive.kind->make_axis(drive, configuration, **link));
-  transmissions_.push_back(drive.transmission);
-  audits_.emplace_back(drive.transmission, *axes_.back(), drive.kind->follows_host_time());
+  mechanisms_.push_back(drive.emulation.mechanism);
+  audits_.emplace_back(drive.emulation.mechanism, *axes_.back(), drive.kind->follows_host_time());
   const auto bus = emulated_buses_.find(drive.bus);
   if (bus == emulated_buses_.end() || drive.emulation.missing) return;
   emulated_drives_[drive.joint] = {joint, &drive.kind->make_emulated(drive, world_, bus->second)};
@@ -143,7 +143,7 @@ void Assembly::take(std::size_t joint, const DemandSample& sample) {
 
 std::optional<double> Assembly::emulated_position(std::size_t joint) const {
   for (const auto& [name, emulated] : emulated_drives_) {
-    if (emulated.joint == joint) return transmissions_[joint].joint_position(emulated.drive->position());
+    if (emulated.joint == joint) return mechanisms_[joint].position(emulated.drive->position());
   }
   return std::nullopt;
 }

@@ -14,16 +14,24 @@ namespace interpolated_motion::hardware {
 
 namespace {
 
-ConstraintConfiguration parse_constraints(ParameterReader reader, const std::vector<std::string>& joints) {
+/// `all`: the driver's parameters, which have one start tolerance for all joints besides. What is given for
+/// all is in the unit of each.
+ConstraintConfiguration parse_constraints(ParameterReader& all,
+                                          const std::vector<DriveConfiguration>& drives) {
+  constexpr double kWidestStart = 10.0;
+  ParameterReader reader = all.map("constraints");
   ConstraintConfiguration constraints;
   constraints.goal_time = reader.number("goal_time", constraints.goal_time, 0.0, 1e6);
-  constraints.stopped_velocity_tolerance =
-      reader.number("stopped_velocity_tolerance", constraints.stopped_velocity_tolerance, 0.0, 1e6);
-  for (const std::string& joint : joints) {
-    ParameterReader entry = reader.map(joint);
-    ConstraintConfiguration::Joint& limits = constraints.joints[joint];
-    limits.trajectory = entry.number("trajectory", 0.0, 0.0, 1e6);
-    limits.goal = entry.number("goal", 0.0, 0.0, 1e6);
+  for (const DriveConfiguration& drive : drives) {
+    const auto in_its_unit = [&drive](double value) { return trajectory::in_unit(drive.limits.unit, value); };
+    ParameterReader entry = reader.map(drive.joint);
+    ConstraintConfiguration::Joint& joint = constraints.joints[drive.joint];
+    joint.trajectory = entry.number("trajectory", 0.0, 0.0, 1e6);
+    joint.goal = entry.number("goal", 0.0, 0.0, 1e6);
+    const double start = all.number("start_tolerance", in_its_unit(joint.start), 0.0, kWidestStart);
+    joint.start = entry.number("start", start, 0.0, kWidestStart);
+    joint.stopped_velocity =
+        reader.number("stopped_velocity_tolerance", in_its_unit(joint.stopped_velocity), 0.0, 1e6);
     entry.refuse_unknown();
   }
   reader.refuse_unknown();
@@ -105,13 +113,12 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
     configuration.drives.push_back(parse_drive(joint, drives.map(joint), urdf, kinds));
   }
   drives.refuse_unknown();
-  configuration.constraints = parse_constraints(reader.map("constraints"), configuration.joints);
+  configuration.constraints = parse_constraints(reader, configuration.drives);
   auto& c = configuration;
   c.setpoints = parse_setpoints(reader.map("setpoints"));
   c.stop_trajectory_duration =
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
-  c.start_tolerance = reader.number("start_tolerance", c.start_tolerance, 0.0, 10.0);
   c.max_start_ahead = reader.number("max_start_ahead", c.max_start_ahead, 1.0, 1e6);
   c.commit_horizon = reader.number("commit_horizon", c.commit_horizon, 0.1, 60.0);
   c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);

@@ -16,6 +16,11 @@ namespace interpolated_motion::hardware {
 
 namespace {
 
+using trajectory::in_unit;
+using trajectory::JointUnit;
+using trajectory::Quantity;
+using trajectory::symbol;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Without a limit of its own a joint may reach its velocity limit within this time.
 constexpr double kDefaultAccelerationTime = 0.1;
@@ -23,17 +28,19 @@ constexpr double kDefaultAccelerationTime = 0.1;
 /// where it rests. The drives' own limits (0x607D) leave as much room.
 constexpr double kPositionSlackInCounts = 2.0;
 
-/// A limit of the configuration may tighten that of the URDF, never widen it.
-double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper) {
+/// A limit of the configuration may tighten that of the URDF, never widen it. `unit`: of both.
+double tightened(ParameterReader& reader, const std::string& key, double urdf, bool upper, const char* unit) {
   const double value = reader.number(key, urdf, -kInfinity, kInfinity);
   const bool wider = upper ? value > urdf : value < urdf;
-  if (wider)
-    reader.fail(key, fmt::format("is {}; the URDF allows {} and may only be tightened", value, urdf));
+  if (wider) {
+    reader.fail(
+        key, fmt::format("is {0} {2}; the URDF allows {1} {2} and may only be tightened", value, urdf, unit));
+  }
   return value;
 }
 
 /// Many URDFs say 0 where nobody has thought of a limit: there is none then.
-double parse_velocity_limit(ParameterReader& reader, double urdf) {
+double parse_velocity_limit(ParameterReader& reader, double urdf, JointUnit unit) {
   if (!reader.has("max_velocity") && urdf <= 0.0) {
     reader.fail("max_velocity",
                 fmt::format("is missing, and the URDF says {}: it must be a finite number above 0. Give "
@@ -41,7 +48,7 @@ double parse_velocity_limit(ParameterReader& reader, double urdf) {
                             urdf));
   }
   const double bound = urdf > 0.0 ? urdf : std::numeric_limits<double>::infinity();
-  const double velocity = tightened(reader, "max_velocity", bound, true);
+  const double velocity = tightened(reader, "max_velocity", bound, true, symbol(unit, Quantity::Velocity));
   if (velocity > 0.0 && std::isfinite(velocity)) return velocity;
   reader.fail("max_velocity",
               fmt::format("is {}; it must be a finite number above 0: give the joint a velocity limit in "
@@ -61,9 +68,10 @@ trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader r
             joint));
   }
   trajectory::JointLimits limits = found->second;
-  limits.min_position = tightened(reader, "min_position", limits.min_position, false);
-  limits.max_position = tightened(reader, "max_position", limits.max_position, true);
-  limits.max_velocity = parse_velocity_limit(reader, limits.max_velocity);
+  const char* unit = symbol(limits.unit);
+  limits.min_position = tightened(reader, "min_position", limits.min_position, false, unit);
+  limits.max_position = tightened(reader, "max_position", limits.max_position, true, unit);
+  limits.max_velocity = parse_velocity_limit(reader, limits.max_velocity, limits.unit);
   if (limits.min_position > limits.max_position) {
     reader.fail("min_position",
                 fmt::format("is {}, above max_position {}", limits.min_position, limits.max_position));
@@ -74,10 +82,43 @@ trajectory::JointLimits parse_limits(const std::string& joint, ParameterReader r
   return limits;
 }
 
-encoding::Transmission parse_transmission(ParameterReader& reader) {
+constexpr const char* kGearRatio = "gear_ratio";
+constexpr const char* kTravel = "travel_per_revolution";
+
+/// Of a joint whose positions are lengths: revolutions per revolution mean nothing.
+double parse_travel(ParameterReader& reader) {
+  reader.ignore(kTravel);
+  const char* what =
+      "m of the joint per revolution of the motor (the lead of the screw, or the circumference of the "
+      "pulley, "
+      "divided by the gear between it and the motor)";
+  if (reader.has(kGearRatio)) {
+    reader.fail(
+        kGearRatio,
+        fmt::format("is not for this joint, which is prismatic in the URDF: leave it out, and give {}, {}",
+                    kTravel, what));
+  }
+  if (!reader.has(kTravel))
+    reader.fail(kTravel, fmt::format("is missing: the joint is prismatic in the URDF; give {}", what));
+  return encoding::Transmission::ratio_of_travel(reader.required_number(kTravel, 1e-9, 1e3));
+}
+
+double parse_gear_ratio(ParameterReader& reader) {
+  if (reader.has(kTravel)) {
+    reader.fail(
+        kTravel,
+        fmt::format("is for prismatic joints, and this one turns by the URDF: leave it out, and give "
+                    "{}, revolutions of the motor per revolution of the joint, or correct the type of "
+                    "the joint in the URDF",
+                    kGearRatio));
+  }
+  return reader.number(kGearRatio, 1.0, 1e-6, 1e6);
+}
+
+encoding::Transmission parse_transmission(ParameterReader& reader, JointUnit unit) {
   encoding::Transmission transmission;
   transmission.counts_per_revolution = reader.required_number("counts_per_revolution", 1.0, 1e8);
-  transmission.ratio = reader.number("gear_ratio", 1.0, 1e-6, 1e6);
+  transmission.ratio = unit == JointUnit::Metre ? parse_travel(reader) : parse_gear_ratio(reader);
   transmission.direction = static_cast<int>(reader.integer("direction", 1, -1, 1));
   if (transmission.direction == 0) reader.fail("direction", "is 0; allowed: 1, -1");
   transmission.offset = reader.number("offset", 0.0, -1e6, 1e6);
@@ -97,6 +138,23 @@ void require_representable(const ParameterReader& reader, const std::string& key
                                position, counts, std::numeric_limits<std::int32_t>::max()));
 }
 
+/// What the encoder of an emulated drive reads with the joint at 0 and at 1 (rad or m).
+Mechanism parse_mechanism(ParameterReader& reader, const encoding::Transmission& transmission) {
+  constexpr double kMost = 1e12;
+  const char* at_0 = "counts_at_0";
+  const char* at_1 = "counts_at_1";
+  if (!reader.has(at_0) && !reader.has(at_1)) {
+    reader.ignore(at_0);
+    reader.ignore(at_1);
+    return {transmission.counts_per_radian(), transmission.offset};
+  }
+  const double first = reader.required_number(at_0, -kMost, kMost);
+  const double second = reader.required_number(at_1, -kMost, kMost);
+  if (first == second)
+    reader.fail(at_1, fmt::format("is {}, as {}: the encoder must move with the joint", second, at_0));
+  return {second - first, first / (first - second)};
+}
+
 /// Positions that the joint may have must have a number of counts.
 void check_reach(const ParameterReader& reader, const DriveConfiguration& drive) {
   if (drive.limits.continuous) return;
@@ -111,8 +169,9 @@ DriveEmulation parse_emulation(ParameterReader& reader, const encoding::Transmis
   using emulation::kLargestClockError;
   DriveEmulation emulation;
   emulation.missing = reader.boolean("missing", emulation.missing);
+  emulation.mechanism = parse_mechanism(reader, transmission);
   const double position = reader.number("initial_position", 0.0, -1e6, 1e6);
-  const double counts = std::round(transmission.counts(position));
+  const double counts = std::round(emulation.mechanism.counts(position));
   require_representable(reader, "initial_position", position, counts);
   emulation.initial_position = static_cast<std::int32_t>(counts);
   emulation.clock_error_ppm = reader.number("clock_error_ppm", 0.0, -kLargestClockError, kLargestClockError);
@@ -135,14 +194,15 @@ DriveConfiguration parse_drive(const std::string& joint, ParameterReader reader,
   drive.joint = joint;
   drive.bus = reader.required_name("bus");
   drive.kind = parse_kind(reader, kinds);
-  drive.transmission = parse_transmission(reader);
   drive.limits = parse_limits(joint, reader.map("limits"), urdf);
+  drive.transmission = parse_transmission(reader, drive.limits.unit);
   drive.limits.position_slack = std::max(
       drive.limits.position_slack, kPositionSlackInCounts / std::abs(drive.transmission.counts_per_radian()));
   check_reach(reader, drive);
   drive.deviation_bound =
       reader.number("deviation_bound", drive.kind->default_deviation_bound(), 0.6, 1000.0);
-  drive.max_following_error = reader.number("max_following_error", drive.max_following_error, 1e-6, 1e3);
+  drive.max_following_error =
+      reader.number("max_following_error", in_unit(drive.limits.unit, drive.max_following_error), 1e-6, 1e3);
   drive.limit_margin = reader.number("limit_margin", drive.limit_margin, 1.0, 10.0);
   drive.plan_margin =
       reader.number("plan_margin", std::min(drive.plan_margin, drive.limit_margin), 1.0, drive.limit_margin);

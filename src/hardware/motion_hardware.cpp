@@ -45,21 +45,22 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
   motion::GroupParameters parameters;
   std::vector<double> path;
   std::vector<double> goal;
+  std::vector<double> stopped;
   for (const DriveConfiguration& drive : configuration.drives) {
+    const ConstraintConfiguration::Joint& joint = configuration.constraints.joints.at(drive.joint);
     parameters.rules.joints.push_back(drive.joint);
     parameters.rules.limits.push_back(drive.limits);
-    parameters.rules.start_tolerance.push_back(configuration.start_tolerance);
+    parameters.rules.start_tolerance.push_back(joint.start);
     parameters.rules.lead_in_threshold.push_back(kLeadInCounts /
                                                  std::abs(drive.transmission.counts_per_radian()));
-    const auto found = configuration.constraints.joints.find(drive.joint);
-    const bool known = found != configuration.constraints.joints.end();
-    path.push_back(known ? found->second.trajectory : 0.0);
-    goal.push_back(known ? found->second.goal : 0.0);
+    path.push_back(joint.trajectory);
+    goal.push_back(joint.goal);
+    stopped.push_back(joint.stopped_velocity);
   }
   parameters.rules.allow_partial_joints = configuration.allow_partial_joints_goal;
   parameters.rules.max_start_ahead = GoalTime{configuration.max_start_ahead};
-  parameters.tolerances = trajectory::default_tolerances(
-      path, goal, configuration.constraints.stopped_velocity_tolerance, configuration.constraints.goal_time);
+  parameters.tolerances =
+      trajectory::default_tolerances(path, goal, stopped, configuration.constraints.goal_time);
   parameters.settle_timeout = host_duration(configuration.settle_timeout);
   parameters.stream = configuration.setpoints;
   parameters.enable_on_start = configuration.enable_on_start;
@@ -345,6 +346,7 @@ motion::MotionReport MotionHardware::report() const {
     report.joints[i].samples = audit.samples();
     report.joints[i].worst_deviation = audit.worst_deviation();
     report.joints[i].final_deviation = audit.final_deviation();
+    report.joints[i].count = audit.count();
   }
   for (const auto& link : implementation_->assembly.links())
     report.peak_bus_load.emplace_back(link->name(), link->peak_load());

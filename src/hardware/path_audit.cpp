@@ -22,13 +22,15 @@ void PathAudit::clear() {
   final_ = 0.0;
 }
 
+double PathAudit::count() const { return 1.0 / std::abs(mechanism_.counts_per_unit); }
+
 void PathAudit::add(const DemandSample& sample) {
   if (sample.time < begin_ || sample.time > end_) return;
   const HostTime path_begin = host_time_ ? axis_->path_begin() : sample.time;
   if (path_begin == kNever) return;
   const GoalTime time =
       axis_->goal_time_at(host_time_ ? seconds(sample.time - path_begin) : sample.drive_seconds);
-  final_ = std::abs(sample.demand - transmission_.counts(path_.sample(time).position));
+  final_ = std::abs(sample.demand - mechanism_.counts(path_.sample(time).position));
   worst_ = std::max(worst_, final_);
   ++samples_;
 }

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "interpolated_motion_driver/motion/group.h"
 
 namespace interpolated_motion::motion {
@@ -42,10 +44,10 @@ void copy_status(const axis::AxisStatus& from, JointSnapshot& to) {
   to.capacity = from.capacity;
   to.fill = from.fill;
   to.fill_time = from.fill_time;
-  to.underflow_warning = from.underflow_warning;
-  to.overflow_warning = from.overflow_warning;
-  to.velocity_warning = from.velocity_warning;
-  to.acceleration_warning = from.acceleration_warning;
+  to.warnings.underflow = from.underflow_warning;
+  to.warnings.overflow = from.overflow_warning;
+  to.warnings.velocity = from.velocity_warning;
+  to.warnings.acceleration = from.acceleration_warning;
   to.underruns = from.underruns;
   to.overflows = from.overflows;
   to.refused_writes = from.refused_writes;
@@ -70,6 +72,7 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
     const axis::AxisFeedback& feedback = axes_[i]->feedback();
     joint.joint = axes_[i]->joint();
     joint.bus = axes_[i]->bus();
+    joint.unit = parameters_.rules.limits[i].unit;
     joint.actual = {feedback.position, feedback.velocity, 0.0};
     joint.desired = desired(i, feedback.time);
     axes_[i]->status(now, status);
@@ -85,10 +88,17 @@ MotionReport Group::report() const {
     report.goal = last_->id;
     report.duration = last_->plan.lead_in + last_->plan.duration;
   }
-  for (const axis::Axis* axis : axes_) {
-    const axis::AxisReport figures = axis->report();
-    report.joints.push_back({axis->joint(), axis->bus(), figures.records_sent, figures.minimum_fill,
-                             figures.underruns, figures.refused_writes, 0, 0.0, 0.0});
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const axis::AxisReport figures = axes_[i]->report();
+    JointReport joint;
+    joint.joint = axes_[i]->joint();
+    joint.bus = axes_[i]->bus();
+    joint.unit = parameters_.rules.limits[i].unit;
+    joint.records_sent = figures.records_sent;
+    joint.minimum_fill = figures.minimum_fill;
+    joint.underruns = figures.underruns;
+    joint.refused_writes = figures.refused_writes;
+    report.joints.push_back(std::move(joint));
   }
   return report;
 }

@@ -52,14 +52,18 @@ std::optional<Refusal> Group::find_path_violation() {
   sample_feedback();
   const auto violation = trajectory::find_tolerance_violation(active_->tolerances.path, desired_, actual_);
   if (!violation) return std::nullopt;
-  return trajectory::path_tolerance_violated(parameters_.rules.joints[violation->joint], *violation);
+  const std::size_t joint = violation->joint;
+  return trajectory::path_tolerance_violated(parameters_.rules.joints[joint],
+                                             parameters_.rules.limits[joint].unit, *violation);
 }
 
 std::optional<Refusal> Group::find_goal_violation() {
   sample_feedback();
   const auto violation = trajectory::find_tolerance_violation(active_->tolerances.goal, desired_, actual_);
   if (!violation) return std::nullopt;
-  return trajectory::goal_tolerance_violated(parameters_.rules.joints[violation->joint], *violation);
+  const std::size_t joint = violation->joint;
+  return trajectory::goal_tolerance_violated(parameters_.rules.joints[joint],
+                                             parameters_.rules.limits[joint].unit, *violation);
 }
 
 HostTime Group::settle_deadline() const {

@@ -66,7 +66,7 @@ Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(const Setp
     const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
     const auto on = trajectory::stream_path(paths_[i].sample(start), start, aim, rules);
     if (!on) {
-      Refusal refusal = trajectory::limit_refusal(rules_.joints[i], on.error());
+      Refusal refusal = trajectory::limit_refusal(rules_.joints[i], rules_.limits[i].unit, on.error());
       refusal.text =
           fmt::format("The setpoint cannot be reached within {:.2f} s: {}", catch_up.count(), refusal.text);
       return refusal;

@@ -65,7 +65,8 @@ void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status
   status.add("bus", joint.bus);
   status.add("state", joint.state);
   status.add("statusword", fmt::format("0x{:04X}", joint.statusword));
-  status.add("following error", fmt::format("{:.6f}", joint.following_error));
+  status.add("following error",
+             fmt::format("{:.6f} {}", joint.following_error, trajectory::symbol(joint.unit)));
   status.add("buffered records", fmt::format("{} of {}", joint.fill, joint.capacity));
   status.add("buffered time", fmt::format("{:.3f} s", joint.fill_time));
   status.add("underruns", joint.underruns);

@@ -138,10 +138,10 @@ void fill_buffer_status(const motion::Snapshot& snapshot, interpolated_motion_dr
   fill_column(snapshot, message.capacity, [](const Joint& j) { return j.capacity; });
   fill_column(snapshot, message.fill, [](const Joint& j) { return j.fill; });
   fill_column(snapshot, message.fill_time, [](const Joint& j) { return j.fill_time; });
-  fill_column(snapshot, message.underflow_warning, [](const Joint& j) { return j.underflow_warning; });
-  fill_column(snapshot, message.overflow_warning, [](const Joint& j) { return j.overflow_warning; });
-  fill_column(snapshot, message.velocity_warning, [](const Joint& j) { return j.velocity_warning; });
-  fill_column(snapshot, message.acceleration_warning, [](const Joint& j) { return j.acceleration_warning; });
+  fill_column(snapshot, message.underflow_warning, [](const Joint& j) { return j.warnings.underflow; });
+  fill_column(snapshot, message.overflow_warning, [](const Joint& j) { return j.warnings.overflow; });
+  fill_column(snapshot, message.velocity_warning, [](const Joint& j) { return j.warnings.velocity; });
+  fill_column(snapshot, message.acceleration_warning, [](const Joint& j) { return j.warnings.acceleration; });
   fill_column(snapshot, message.underruns, [](const Joint& j) { return j.underruns; });
   fill_column(snapshot, message.overflows, [](const Joint& j) { return j.overflows; });
   fill_column(snapshot, message.refused_writes, [](const Joint& j) { return j.refused_writes; });
@@ -154,6 +154,7 @@ void fill_drive_states(const motion::Snapshot& snapshot, interpolated_motion_dri
   using Joint = motion::JointSnapshot;
   message.header.stamp = to_ros_time(snapshot.time);
   fill_names(snapshot, message.name);
+  fill_column(snapshot, message.unit, [](const Joint& j) { return trajectory::symbol(j.unit); });
   fill_column(snapshot, message.state, [](const Joint& j) { return j.state; });
   fill_column(snapshot, message.statusword, [](const Joint& j) { return j.statusword; });
   fill_column(snapshot, message.mode, [](const Joint& j) { return j.mode; });
@@ -176,6 +177,8 @@ void fill_motion_report(const motion::MotionReport& report,
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     response.name.push_back(joint.joint);
     response.bus.push_back(joint.bus);
+    response.unit.emplace_back(trajectory::symbol(joint.unit));
+    response.count.push_back(joint.count);
     response.records_sent.push_back(joint.records_sent);
     response.samples.push_back(joint.samples);
     response.worst_deviation.push_back(compared ? joint.worst_deviation : kUnknown);

@@ -47,6 +47,7 @@ std::string xacro_of(const std::string& text) {
 trajectory::JointLimits limits_of(const urdf::Joint& joint, const std::string& source) {
   trajectory::JointLimits limits;
   limits.continuous = joint.type == urdf::Joint::CONTINUOUS;
+  if (joint.type == urdf::Joint::PRISMATIC) limits.unit = trajectory::JointUnit::Metre;
   if (!joint.limits) return limits;
   if (!(joint.limits->velocity >= 0.0)) {
     throw std::invalid_argument(fmt::format("Joint {} has the velocity limit {:g} in {}; it must be above 0.",

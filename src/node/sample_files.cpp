@@ -2,14 +2,28 @@
 
 #include <cinttypes>
 #include <cstdio>
-#include <memory>
+#include <stdexcept>
+
+#include "interpolated_motion_driver/command_line/input_file.h"
 
 namespace interpolated_motion::node {
 
+namespace {
+
+/// Null where there is none.
+command_line::OpenFile open_if_there(const std::string& path) {
+  try {
+    return command_line::open_input_file(path);
+  } catch (const std::runtime_error&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
 std::vector<hardware::DemandSample> read_sample_file(const std::string& path) {
   std::vector<hardware::DemandSample> samples;
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "r"), close);
+  const command_line::OpenFile file = open_if_there(path);
   std::int64_t time = 0;
   hardware::DemandSample sample;
   int interpolating = 0;

@@ -1,9 +1,8 @@
 #include "interpolated_motion_driver/node/wire_log.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -27,6 +26,24 @@ std::string stamp(HostDuration time) {
 
 bool is_printable(char c) { return c >= ' ' && c <= '~'; }
 
+/// `(seconds.microseconds) BUS ...`
+bool is_of_a_log(const std::string& line) {
+  constexpr const char* kDigits = "0123456789";
+  constexpr std::size_t kFraction = 6;
+  const std::size_t point = line.find_first_not_of(kDigits, 1);
+  if (line.empty() || line[0] != '(' || point == std::string::npos || point < 2) return false;
+  const std::size_t end = line.find_first_not_of(kDigits, point + 1);
+  return line[point] == '.' && end == point + 1 + kFraction && line.compare(end, 2, ") ") == 0;
+}
+
+command_line::OpenFile open_log(const std::string& path) {
+  try {
+    return command_line::open_output_file(path, command_line::EarlierFile::GoOn, &is_of_a_log);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("Parameter wire_log: {}.", error.what()));
+  }
+}
+
 }  // namespace
 
 std::string candump_line(const std::string& bus, const canopen::Frame& frame, HostDuration time) {
@@ -43,11 +60,7 @@ WireLog::WireLog(const std::string& path, HostDuration offset, std::vector<std::
     : path_(std::filesystem::absolute(path)),
       offset_(offset),
       buses_(std::move(buses)),
-      file_(std::fopen(path_.c_str(), "w")) {
-  if (!file_) {
-    throw std::runtime_error(
-        fmt::format("Parameter wire_log is {}, which cannot be written: {}.", path_, std::strerror(errno)));
-  }
+      file_(open_log(path_)) {
   queue_.reserve(kQueueLength);
   thread_ = std::thread([this] { run(); });
 }

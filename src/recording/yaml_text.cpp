@@ -36,6 +36,13 @@ std::string tolerances_text(const char* key, const std::vector<trajectory::Joint
   return fmt::format(", {}: [{}]", key, text);
 }
 
+/// Recordings of earlier versions have revolute joints alone.
+trajectory::JointUnit parse_unit(const YAML::Node& unit) {
+  using trajectory::JointUnit;
+  const bool is_length = unit && unit.as<std::string>() == trajectory::symbol(JointUnit::Metre);
+  return is_length ? JointUnit::Metre : JointUnit::Radian;
+}
+
 std::vector<double> parse_values(const YAML::Node& values) {
   return values ? values.as<std::vector<double>>() : std::vector<double>{};
 }
@@ -145,9 +152,9 @@ std::string limits_text(const std::map<std::string, trajectory::JointLimits>& li
   for (const auto& [joint, one] : limits)
     text += fmt::format(
         "{}{}: {{min_position: {}, max_position: {}, max_velocity: {}, max_acceleration: {}, continuous: "
-        "{}}}",
+        "{}, unit: {}}}",
         text.empty() ? "" : ", ", in_quotes(joint), number(one.min_position), number(one.max_position),
-        number(one.max_velocity), number(one.max_acceleration), one.continuous);
+        number(one.max_velocity), number(one.max_acceleration), one.continuous, symbol(one.unit));
   return "{" + text + "}";
 }
 
@@ -156,8 +163,9 @@ std::map<std::string, trajectory::JointLimits> parse_limits(const YAML::Node& ma
   for (const auto& joint : map) {
     const YAML::Node& one = joint.second;
     limits[joint.first.as<std::string>()] = {
-        one["min_position"].as<double>(), one["max_position"].as<double>(), one["max_velocity"].as<double>(),
-        one["max_acceleration"].as<double>(), one["continuous"].as<bool>()};
+        one["min_position"].as<double>(), one["max_position"].as<double>(),
+        one["max_velocity"].as<double>(), one["max_acceleration"].as<double>(),
+        one["continuous"].as<bool>(),     parse_unit(one["unit"])};
   }
   return limits;
 }

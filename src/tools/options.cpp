@@ -31,9 +31,10 @@ command_line::OptionSet option_set(Options& options) {
   set.add_number({"lost", "PART", "of the setpoints is not sent, 0..0.9 (default: 0)"}, {0.0, 0.9},
                  options.lost);
   set.add_text({"node", "NAME", fmt::format("the driver's node (default: {})", options.node)}, options.node);
-  set.add_number(
-      {"wait", "SECONDS", fmt::format("for the driver to be ready, 0..1e6 s (default: {})", options.wait)},
-      {0.0, 1e6}, options.wait);
+  set.add_number({"wait", "SECONDS",
+                  "for ROS's master and a driver that is still to be started, 0..1e6 s (default: 0, both "
+                  "must be there)"},
+                 {0.0, 1e6}, options.wait);
   set.add_number({"timeout", "SECONDS",
                   "for the whole run, 0.001..1e6 s (default: the goal's own length + 60 s once the driver is "
                   "ready)"},

@@ -12,7 +12,7 @@ struct Options {
   double setpoints = 0.0;  ///< s of a stream of setpoints, instead of a goal
   double lost = 0.0;       ///< part of the setpoints that never arrive, 0..0.9
   std::string node = "/driver";
-  double wait = 60.0;    ///< s for ROS's master and the driver's action to be there
+  double wait = 0.0;     ///< s for ROS's master and the driver to be started; 0: they must be there
   double timeout = 0.0;  ///< s for the whole run; 0: none, the goal's own length and some more is its limit
 };
 

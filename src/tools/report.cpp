@@ -7,8 +7,9 @@
 namespace interpolated_motion::tools {
 namespace {
 
-std::string counts(double value) {
-  return std::isnan(value) ? "unknown" : fmt::format("{:.3f} counts", value);
+/// `count`: what one is, in `unit`.
+std::string counts(double value, double count, const std::string& unit) {
+  return std::isnan(value) ? "unknown" : fmt::format("{:.3f} counts ({:.2g} {})", value, value * count, unit);
 }
 
 }  // namespace
@@ -21,7 +22,8 @@ std::string report_text(const interpolated_motion_driver::GetMotionReport::Respo
         "{}  bus {}  records sent {}  refused {}  worst deviation {}  final deviation {}  buffer minimum {}  "
         "underruns {}\n",
         report.name[i], report.bus[i], report.records_sent[i], report.refused_writes[i],
-        counts(report.worst_deviation[i]), counts(report.final_deviation[i]), report.minimum_fill[i],
+        counts(report.worst_deviation[i], report.count[i], report.unit[i]),
+        counts(report.final_deviation[i], report.count[i], report.unit[i]), report.minimum_fill[i],
         report.underruns[i]);
   }
   for (std::size_t i = 0; i < report.bus_name.size(); ++i) {

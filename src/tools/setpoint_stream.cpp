@@ -12,40 +12,56 @@
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <fmt/format.h>
 #include <interpolated_motion_driver/BufferStatus.h>
+#include <interpolated_motion_driver/DriveState.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
 namespace interpolated_motion::tools {
 namespace {
 
 constexpr double kPi = 3.14159265358979324;
-constexpr double kPeriod = 0.02;     // s, of the setpoints
-constexpr double kAmplitude = 0.2;   // rad
-constexpr int kHeld = 25;            // setpoints at the end, all of one position
-constexpr double kTolerance = 1e-3;  // rad, of the rest
+constexpr double kPeriod = 0.02;  // s, of the setpoints
+constexpr int kHeld = 25;         // setpoints at the end, all of one position
 constexpr auto kPatience = std::chrono::seconds(30);
 
 using Clock = std::chrono::steady_clock;
 
-/// 1 Hz, at rest at its begin.
-double sine(double time) { return kAmplitude * (1.0 - std::cos(2.0 * kPi * time)); }
+/// Where the arm stands, joint by joint.
+struct Pose {
+  std::vector<std::string> names;
+  std::vector<std::string> units;  ///< "rad" or "m"
+  std::vector<double> positions;
+};
+
+/// rad, or m of a prismatic joint.
+double amplitude(const std::string& unit) { return unit == "m" ? 0.02 : 0.2; }
+/// Of the rest, likewise.
+double tolerance(const std::string& unit) { return unit == "m" ? 1e-4 : 1e-3; }
+
+/// Where the joints are to be `time` s after the begin of the stream at `rest`: a sine of 1 Hz, at rest then.
+std::vector<double> setpoint(const Pose& rest, double time) {
+  std::vector<double> positions = rest.positions;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] += amplitude(rest.units[i]) * (1.0 - std::cos(2.0 * kPi * time));
+  return positions;
+}
 
 /// The arm as the driver reports it.
 class Arm {
  public:
   Arm(ros::NodeHandle& node, const std::string& driver)
       : state_subscriber_(node.subscribe(driver + "/state", 10, &Arm::take_state, this)),
+        drive_subscriber_(node.subscribe(driver + "/drive_states", 1, &Arm::take_drives, this)),
         buffer_subscriber_(node.subscribe(driver + "/buffer_status", 1, &Arm::take_buffers, this)) {}
 
   /// False when there is no report in time.
-  bool wait(std::vector<std::string>& names, std::vector<double>& positions) {
+  bool wait(Pose& pose) {
     const auto end = Clock::now() + kPatience;
     while (ros::ok() && Clock::now() < end) {
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        names = latest_.joint_names;
-        positions = latest_.actual.positions;
+        pose = {latest_.joint_names, drives_.unit, latest_.actual.positions};
       }
-      if (!positions.empty()) return true;
+      if (!pose.positions.empty() && pose.units.size() == pose.positions.size()) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return false;
@@ -66,6 +82,10 @@ class Arm {
     const std::lock_guard<std::mutex> lock(mutex_);
     latest_ = *message;
   }
+  void take_drives(const interpolated_motion_driver::DriveState::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    drives_ = *message;
+  }
   void take_buffers(const interpolated_motion_driver::BufferStatus::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     buffers_ = *message;
@@ -73,8 +93,10 @@ class Arm {
 
   std::mutex mutex_;
   control_msgs::JointTrajectoryControllerState latest_;
+  interpolated_motion_driver::DriveState drives_;
   interpolated_motion_driver::BufferStatus buffers_;
   ros::Subscriber state_subscriber_;
+  ros::Subscriber drive_subscriber_;
   ros::Subscriber buffer_subscriber_;
 };
 
@@ -84,8 +106,7 @@ int last_of(const StreamOptions& options) {
 
 /// Sends the setpoints, each at its time and up to half a period later, and holds the last position. Returns
 /// how many were sent.
-int send(const ros::Publisher& publisher, const StreamOptions& options, const std::vector<std::string>& names,
-         const std::vector<double>& rest) {
+int send(const ros::Publisher& publisher, const StreamOptions& options, const Pose& rest) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const int last = last_of(options);
@@ -103,13 +124,14 @@ int send(const ros::Publisher& publisher, const StreamOptions& options, const st
           stdout);
       std::fflush(stdout);
     }
+    if (publisher.getNumSubscribers() == 0)
+      break;  // the next driver of that name is not the one that was asked
     if (lost) continue;
     trajectory_msgs::JointTrajectory message;
     message.header.stamp = stamp + ros::Duration(k * kPeriod);
-    message.joint_names = names;
+    message.joint_names = rest.names;
     message.points.resize(1);
-    for (const double position : rest)
-      message.points[0].positions.push_back(position + sine(std::min(k, last) * kPeriod));
+    message.points[0].positions = setpoint(rest, std::min(k, last) * kPeriod);
     publisher.publish(message);
     ++sent;
   }
@@ -118,13 +140,13 @@ int send(const ros::Publisher& publisher, const StreamOptions& options, const st
 
 /// What speaks against the stream having ended within the tolerance of `goal`; empty when nothing does.
 std::string what_is_off(Arm& arm, const std::vector<double>& goal) {
-  std::vector<std::string> names;
-  std::vector<double> positions;
-  if (!arm.wait(names, positions)) return "No state of the arm has come.\n";
+  Pose pose;
+  if (!arm.wait(pose)) return "No state of the arm has come.\n";
   std::string off;
   for (std::size_t i = 0; i < goal.size(); ++i) {
-    const double error = positions[i] - goal[i];
-    if (std::abs(error) > kTolerance) off += fmt::format("{} is {:.4f} rad off. ", names[i], error);
+    const double error = pose.positions[i] - goal[i];
+    if (std::abs(error) > tolerance(pose.units[i]))
+      off += fmt::format("{} is {:.5f} {} off. ", pose.names[i], error, pose.units[i]);
   }
   if (!off.empty()) return off + "Were setpoints refused? The driver's log says why.\n";
   return arm.buffers_are_empty() ? "" : "The stream has not ended: there are records left in the drives.\n";
@@ -149,20 +171,22 @@ bool stream_setpoints(ros::NodeHandle& ros_node, const StreamOptions& options) {
   Arm arm(ros_node, options.node);
   const auto publisher =
       ros_node.advertise<trajectory_msgs::JointTrajectory>(options.node + "/setpoints", 50);
-  std::vector<std::string> names;
-  std::vector<double> rest;
-  if (!arm.wait(names, rest)) {
-    std::fputs(fmt::format("no message on {}/state\n", options.node).c_str(), stdout);
+  Pose rest;
+  if (!arm.wait(rest)) {
+    std::fputs(fmt::format("no message on {0}/state or {0}/drive_states\n", options.node).c_str(), stdout);
     return false;
   }
   for (int i = 0; i < 100 && publisher.getNumSubscribers() == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  const int sent = send(publisher, options, names, rest);
+  const int sent = send(publisher, options, rest);
+  if (publisher.getNumSubscribers() == 0) {
+    std::fputs(fmt::format("{} no longer takes setpoints: the driver has ended\n", options.node).c_str(),
+               stdout);
+    return false;
+  }
   std::fputs(fmt::format("{} setpoints sent, {} lost\n", sent, last_of(options) + kHeld - sent).c_str(),
              stdout);
-  std::vector<double> goal = rest;
-  for (double& position : goal) position += sine(last_of(options) * kPeriod);
-  return comes_to_rest(arm, goal);
+  return comes_to_rest(arm, setpoint(rest, last_of(options) * kPeriod));
 }
 
 }  // namespace interpolated_motion::tools

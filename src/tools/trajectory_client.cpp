@@ -14,6 +14,7 @@
 #include <ros/master.h>
 #include <ros/ros.h>
 
+#include "driver_instance.h"
 #include "goal_file.h"
 #include "options.h"
 #include "progress.h"
@@ -31,6 +32,8 @@ enum ExitCode { Succeeded = 0, BadInput = 2, Rejected = 3, NotSucceeded = 4, Tim
 
 /// s beyond the goal's own length, for lead-in, settling and a loaded machine.
 constexpr double kGoalPatience = 60.0;
+/// s for a driver that is there to find, configure and enable its drives.
+constexpr double kBringUpPatience = 60.0;
 constexpr auto kStep = std::chrono::milliseconds(100);
 
 Clock::time_point after(double seconds) {
@@ -80,10 +83,27 @@ bool wait_for_master(Clock::time_point deadline) {
   return false;
 }
 
-bool wait_for_server(Client& client, const std::string& node, Clock::time_point deadline) {
-  const std::string action = fmt::format("the action {}/follow_joint_trajectory", node);
-  if (wait_and_say(deadline, action, [&] { return client.isServerConnected(); })) return true;
-  complain(fmt::format("nobody serves {}; is the driver running?", action));
+/// The driver that is moved is the one that is there when it is asked, or that comes while it is waited for.
+bool wait_for_driver(DriverInstance& driver, Clock::time_point deadline) {
+  const std::string what = "the driver " + driver.node();
+  if (wait_and_say(deadline, what, [&] { return driver.found(); })) return true;
+  complain(fmt::format(
+      "there is no node {}. Start the driver first, or say by --wait SECONDS how long to wait for "
+      "one that is still to be started",
+      driver.node()));
+  return false;
+}
+
+/// It serves its action when its drives have been found, configured and enabled.
+bool wait_for_server(Client& client, const DriverInstance& driver, Clock::time_point deadline) {
+  const std::string action = fmt::format("the action {}/follow_joint_trajectory", driver.node());
+  if (!wait_and_say(deadline, action, [&] { return client.isServerConnected(); })) {
+    complain(fmt::format("{} does not serve {}: its log says what it waits for", driver.node(), action));
+    return false;
+  }
+  if (driver.is_there()) return true;
+  complain(fmt::format("the driver {} has ended and another one has been started; it is sent nothing",
+                       driver.node()));
   return false;
 }
 
@@ -108,22 +128,26 @@ ExitCode exit_code(const State& state) {
 
 /// Until when this run may wait.
 struct Deadlines {
-  Clock::time_point ready;               ///< for the driver
+  Clock::time_point there;               ///< for ROS's master and the driver
+  Clock::time_point ready;               ///< for the driver's action
   std::optional<Clock::time_point> end;  ///< for all of it
 };
 
 Deadlines deadlines(const Options& options) {
-  if (options.timeout == 0.0) return {after(options.wait), std::nullopt};
-  return {after(std::min(options.wait, options.timeout)), after(options.timeout)};
+  const double there = options.wait;
+  const double ready = std::max(options.wait, kBringUpPatience);
+  if (options.timeout == 0.0) return {after(there), after(ready), std::nullopt};
+  const double all = options.timeout;
+  return {after(std::min(there, all)), after(std::min(ready, all)), after(all)};
 }
 
-ExitCode send(const Options& options, const Deadlines& until,
+ExitCode send(const Options& options, const Deadlines& until, const DriverInstance& driver,
               const trajectory_msgs::JointTrajectory& trajectory) {
   ros::NodeHandle ros_node;
   ros::AsyncSpinner spinner(1);
   spinner.start();
   Client client(options.node + "/follow_joint_trajectory", false);
-  if (!wait_for_server(client, options.node, until.ready)) return Timeout;
+  if (!wait_for_server(client, driver, until.ready)) return Timeout;
 
   Progress progress(length_of(trajectory));
   const auto buffers = ros_node.subscribe<interpolated_motion_driver::BufferStatus>(
@@ -157,12 +181,12 @@ ExitCode send(const Options& options, const Deadlines& until,
   return exit_code(client.getState());
 }
 
-ExitCode stream(const Options& options, const Deadlines& until) {
+ExitCode stream(const Options& options, const Deadlines& until, const DriverInstance& driver) {
   ros::NodeHandle ros_node;
   ros::AsyncSpinner spinner(1);
   spinner.start();
   Client client(options.node + "/follow_joint_trajectory", false);
-  if (!wait_for_server(client, options.node, until.ready)) return Timeout;
+  if (!wait_for_server(client, driver, until.ready)) return Timeout;
   const bool followed = stream_setpoints(ros_node, {options.node, options.setpoints, options.lost});
   print_report(ros_node, options.node);
   say(followed ? "FOLLOWED" : "NOT FOLLOWED");
@@ -174,8 +198,10 @@ ExitCode run(const Options& options) {
   // Read before anything is waited for: a bad file is told at once.
   const auto goal =
       options.goal_file.empty() ? trajectory_msgs::JointTrajectory() : read_goal_file(options.goal_file);
-  if (!wait_for_master(until.ready)) return Timeout;
-  return options.goal_file.empty() ? stream(options, until) : send(options, until, goal);
+  if (!wait_for_master(until.there)) return Timeout;
+  DriverInstance driver(options.node);
+  if (!wait_for_driver(driver, until.there)) return Timeout;
+  return options.goal_file.empty() ? stream(options, until, driver) : send(options, until, driver, goal);
 }
 
 }  // namespace

@@ -72,12 +72,14 @@ class PathMaker {
     const Waypoint& point = goal_.points[last];
     if (point.velocities.empty()) return std::nullopt;
     const double velocity = point.velocities[selection_.columns[joint]];
-    if (std::abs(velocity) <= kRestVelocity) return std::nullopt;
+    const JointUnit unit = rules_.limits[joint].unit;
+    if (std::abs(velocity) <= rest_velocity(unit)) return std::nullopt;
     return Refusal{
         GoalError::InvalidGoal,
-        fmt::format("{}: the last point, points[{}], has a velocity of {:.6g}, allowed is {:g} at most: a "
+        fmt::format("{}: the last point, points[{}], has a velocity of {:.6g} {}, allowed is {:g} at most: a "
                     "drive cannot stop in no time. Let the trajectory end at rest.",
-                    rules_.joints[joint], last, velocity, kRestVelocity)};
+                    rules_.joints[joint], last, velocity, symbol(unit, Quantity::Velocity),
+                    rest_velocity(unit))};
   }
 
   Knot knot(std::size_t joint, std::size_t index) const {
@@ -92,9 +94,9 @@ class PathMaker {
     return result;
   }
 
-  static void bring_to_rest(Knot& knot) {
+  static void bring_to_rest(JointUnit unit, Knot& knot) {
     knot.state.velocity = 0.0;
-    if (std::abs(knot.state.acceleration) <= kRestAcceleration) knot.state.acceleration = 0.0;
+    if (std::abs(knot.state.acceleration) <= in_unit(unit, kRestAcceleration)) knot.state.acceleration = 0.0;
   }
 
   void collect_knots(std::size_t joint) {
@@ -104,8 +106,8 @@ class PathMaker {
     }
     for (const std::size_t index : selection_.points) knots_.push_back(knot(joint, index));
     knots_.front().time = GoalTime(0.0);
-    bring_to_rest(knots_.front());
-    bring_to_rest(knots_.back());
+    bring_to_rest(rules_.limits[joint].unit, knots_.front());
+    bring_to_rest(rules_.limits[joint].unit, knots_.back());
   }
 
   Path moving_path(std::size_t joint) {
@@ -121,21 +123,28 @@ class PathMaker {
     return Path(std::move(pieces));
   }
 
+  bool stops_at(std::size_t point) const {
+    const std::vector<double>& velocities = goal_.points[point].velocities;
+    bool stops = !velocities.empty();
+    for (std::size_t joint = 0; stops && joint < selection_.columns.size(); ++joint) {
+      const std::size_t column = selection_.columns[joint];
+      if (column == kNotNamed) continue;
+      stops = std::abs(velocities[column]) <= rest_velocity(rules_.limits[joint].unit);
+    }
+    return stops;
+  }
+
   bool stops_at_every_point() const {
-    const auto stops = [this](std::size_t index) {
-      const std::vector<double>& velocities = goal_.points[index].velocities;
-      return !velocities.empty() && std::all_of(velocities.begin(), velocities.end(),
-                                                [](double v) { return std::abs(v) <= kRestVelocity; });
-    };
     const bool has_inner_points = selection_.points.size() + (start_.bridge ? 1 : 0) > 2;
-    return has_inner_points && std::all_of(selection_.points.begin(), selection_.points.end(), stops);
+    return has_inner_points && std::all_of(selection_.points.begin(), selection_.points.end(),
+                                           [this](std::size_t point) { return stops_at(point); });
   }
 
   Refusal refuse(std::size_t joint, LimitViolation violation) const {
     const std::size_t first = selection_.points.front();
     const bool on_bridge = start_.bridge && violation.time < time_of(first);
     violation.time += selection_.skipped;
-    Refusal refusal = limit_refusal(rules_.joints[joint], violation);
+    Refusal refusal = limit_refusal(rules_.joints[joint], rules_.limits[joint].unit, violation);
     if (stops_at_every_point()) {
       refusal.text +=
           " Every point has velocity 0, so the trajectory stops at each of them and sets out again: leave "
@@ -144,9 +153,9 @@ class PathMaker {
     }
     if (on_bridge) {
       refusal.text += fmt::format(
-          " This is on the way from rest at the present position {:.6g} to points[{}], for which "
+          " This is on the way from rest at the present position {:.6g} {} to points[{}], for which "
           "there are {:.6f} s.",
-          present_[joint].position, first, time_of(first).count());
+          present_[joint].position, symbol(rules_.limits[joint].unit), first, time_of(first).count());
     }
     return refusal;
   }
@@ -171,7 +180,7 @@ Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRule
   const auto future = drop_past_points(goal, now);
   if (!future) return future.error();
   if (!future.value().warning.empty()) warnings.push_back(future.value().warning);
-  auto points = merge_near_points(goal, future.value().first);
+  auto points = merge_near_points(goal, rules, future.value().first);
   if (!points) return points.error();
   return PointSelection{columns.value(), std::move(points).value(), future.value().skipped};
 }

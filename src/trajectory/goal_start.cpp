@@ -47,12 +47,12 @@ class StartPoint {
       return Refusal{
           GoalError::InvalidGoal,
           fmt::format(
-              "{}: the trajectory starts at {:.6g}, but the joint is at {:.6g}; allowed is a difference of "
-              "{:.6g} "
-              "(start tolerance). Plan from the present position, or give the first point a time_from_start "
-              "that is enough to get there.",
+              "{0}: the trajectory starts at {1:.6g} {4}, but the joint is at {2:.6g} {4}; allowed is a "
+              "difference of {3:.6g} {4} (start tolerance). Plan from the present position, or give the "
+              "first "
+              "point a time_from_start that is enough to get there.",
               rules_.joints[joint], point_.positions[columns_[joint]] + shift[joint],
-              present_[joint].position, rules_.start_tolerance[joint])};
+              present_[joint].position, rules_.start_tolerance[joint], symbol(unit_of(joint)))};
     }
     return std::nullopt;
   }
@@ -61,16 +61,18 @@ class StartPoint {
   std::optional<std::size_t> moving_joint() const {
     if (point_.velocities.empty()) return std::nullopt;
     for (std::size_t joint = 0; joint < columns_.size(); ++joint) {
-      if (named(joint) && std::abs(point_.velocities[columns_[joint]]) > kRestVelocity) return joint;
+      if (named(joint) && std::abs(point_.velocities[columns_[joint]]) > rest_velocity(unit_of(joint)))
+        return joint;
     }
     return std::nullopt;
   }
 
   std::string moving_warning(std::size_t joint, std::size_t index) const {
     return fmt::format(
-        "{}: the trajectory starts with a velocity of {:.6g} at points[{}], but the joint is at rest "
+        "{}: the trajectory starts with a velocity of {:.6g} {} at points[{}], but the joint is at rest "
         "(a velocity up to {:g} passes for rest). The present state takes the place of that point.",
-        rules_.joints[joint], point_.velocities[columns_[joint]], index, kRestVelocity);
+        rules_.joints[joint], point_.velocities[columns_[joint]], symbol(unit_of(joint), Quantity::Velocity),
+        index, rest_velocity(unit_of(joint)));
   }
 
   /// Length of the common lead-in, 0 if no joint needs one.
@@ -87,6 +89,7 @@ class StartPoint {
   }
 
  private:
+  JointUnit unit_of(std::size_t joint) const { return rules_.limits[joint].unit; }
   bool named(std::size_t joint) const { return columns_[joint] != kNotNamed; }
   double deviation(std::size_t joint, const std::vector<double>& shift) const {
     return point_.positions[columns_[joint]] + shift[joint] - present_[joint].position;

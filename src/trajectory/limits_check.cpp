@@ -145,11 +145,11 @@ std::string cause(const LimitViolation& violation) {
   return "The curve between two points does: give accelerations with the points, or more points. ";
 }
 
-std::string advice(const LimitViolation& violation) {
+std::string advice(JointUnit unit, const LimitViolation& violation) {
   if (violation.begins_outside) {
     return fmt::format(
-        "The joint stands outside, at {:.7g}: from there only the way in is allowed, and not out again.",
-        *violation.begins_outside);
+        "The joint stands outside, at {:.7g} {}: from there only the way in is allowed, and not out again.",
+        *violation.begins_outside, symbol(unit));
   }
   if (violation.quantity == Quantity::Position) {
     const char* where =
@@ -162,18 +162,6 @@ std::string advice(const LimitViolation& violation) {
 }
 
 }  // namespace
-
-const char* name(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::Position:
-      return "position";
-    case Quantity::Velocity:
-      return "velocity";
-    case Quantity::Acceleration:
-      break;
-  }
-  return "acceleration";
-}
 
 std::optional<LimitViolation> find_limit_violation(const Path& path, const JointLimits& limits) {
   if (path.pieces().empty()) return std::nullopt;
@@ -198,11 +186,12 @@ std::optional<LimitViolation> find_position_violation(const Path& path, const Jo
   return find_limit_violation(path, positions);
 }
 
-Refusal limit_refusal(const std::string& joint, const LimitViolation& violation) {
-  return {GoalError::InvalidGoal,
-          fmt::format("{}: the {} reaches {:.7g} at {:.6f} s, allowed is {:.7g} to {:.7g} (SI units). {}",
-                      joint, name(violation.quantity), violation.value, violation.time.count(),
-                      violation.minimum, violation.maximum, advice(violation))};
+Refusal limit_refusal(const std::string& joint, JointUnit unit, const LimitViolation& violation) {
+  return {
+      GoalError::InvalidGoal,
+      fmt::format("{0}: the {1} reaches {2:.7g} {6} at {3:.6f} s, allowed is {4:.7g} to {5:.7g} {6}. {7}",
+                  joint, name(violation.quantity), violation.value, violation.time.count(), violation.minimum,
+                  violation.maximum, symbol(unit, violation.quantity), advice(unit, violation))};
 }
 
 }  // namespace interpolated_motion::trajectory

@@ -16,30 +16,47 @@ namespace {
 /// Times come in whole nanoseconds; their differences are rounded.
 constexpr GoalTime kHalfNanosecond{0.5e-9};
 
-/// Index of the joint that moves farthest between two points.
-std::size_t farthest_joint(const Waypoint& a, const Waypoint& b) {
+/// Of the joints of a goal.
+std::vector<JointUnit> units_of(const Goal& goal, const GoalRules& rules) {
+  std::vector<JointUnit> units;
+  for (const std::string& name : goal.joint_names) {
+    const auto found = std::find(rules.joints.begin(), rules.joints.end(), name);
+    units.push_back(found == rules.joints.end()
+                        ? JointUnit::Radian
+                        : rules.limits[static_cast<std::size_t>(found - rules.joints.begin())].unit);
+  }
+  return units;
+}
+
+/// Index of the joint that moves farthest between two points, for its unit.
+std::size_t farthest_joint(const Waypoint& a, const Waypoint& b, const std::vector<JointUnit>& units) {
+  const auto move = [&](std::size_t joint) {
+    return std::abs(b.positions[joint] - a.positions[joint]) / in_unit(units[joint], kMergeDistance);
+  };
   std::size_t farthest = 0;
   for (std::size_t i = 1; i < a.positions.size(); ++i) {
-    const auto move = [&](std::size_t joint) { return std::abs(b.positions[joint] - a.positions[joint]); };
     if (move(i) > move(farthest)) farthest = i;
   }
   return farthest;
 }
 
-std::optional<Refusal> check_merge(const Goal& goal, std::size_t earlier, std::size_t later) {
+std::optional<Refusal> check_merge(const Goal& goal, const GoalRules& rules, std::size_t earlier,
+                                   std::size_t later) {
   const Waypoint& a = goal.points[earlier];
   const Waypoint& b = goal.points[later];
-  const std::size_t joint = farthest_joint(a, b);
+  const std::vector<JointUnit> units = units_of(goal, rules);
+  const std::size_t joint = farthest_joint(a, b, units);
   const double move = b.positions[joint] - a.positions[joint];
-  if (std::abs(move) <= kMergeDistance) return std::nullopt;
+  const double allowed = in_unit(units[joint], kMergeDistance);
+  if (std::abs(move) <= allowed) return std::nullopt;
   return Refusal{
       GoalError::InvalidGoal,
       fmt::format(
-          "points[{}] and points[{}] are {:.3g} s apart and move joint '{}' by {:.3g}; the shortest step "
-          "is {:g} s, below it nothing may move by more than {:g}. Leave one of the points out, or "
-          "give them more time.",
+          "points[{0}] and points[{1}] are {2:.3g} s apart and move joint '{3}' by {4:.3g} {7}; the shortest "
+          "step is {5:g} s, below it the joint may not move by more than {6:g} {7}. Leave one of the points "
+          "out, or give them more time.",
           earlier, later, (b.time - a.time).count(), goal.joint_names[joint], move, kMinimumStep.count(),
-          kMergeDistance)};
+          allowed, symbol(units[joint]))};
 }
 
 std::string dropped_warning(const Goal& goal, const FuturePoints& kept) {
@@ -77,7 +94,8 @@ Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now)
   return kept;
 }
 
-Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, std::size_t first) {
+Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, const GoalRules& rules,
+                                                              std::size_t first) {
   const std::size_t last = goal.points.size() - 1;
   std::vector<std::size_t> kept{first};
   kept.reserve(goal.points.size() - first);
@@ -86,7 +104,7 @@ Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, 
       kept.push_back(i);
       continue;
     }
-    if (auto refusal = check_merge(goal, kept.back(), i)) return *refusal;
+    if (auto refusal = check_merge(goal, rules, kept.back(), i)) return *refusal;
     if (i == last) kept.back() = last;
   }
   return kept;

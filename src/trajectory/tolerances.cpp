@@ -35,31 +35,40 @@ void apply(const std::vector<JointTolerance>& asked, const std::vector<std::stri
 
 bool violates(double error, double tolerance) { return tolerance > 0.0 && !(std::abs(error) <= tolerance); }
 
-Refusal violated(GoalError code, const char* kind, const std::string& joint, const ToleranceViolation& v,
-                 const char* advice) {
-  return {code, fmt::format("{0} {1} error {2:f}. The {3} of {0} is off by {4:.6g}, allowed is {5:.6g}. {6}",
-                            joint, kind, v.position_error, name(v.quantity), v.error, v.tolerance, advice)};
+/// Who has violated which tolerance.
+struct Violator {
+  const std::string& joint;
+  JointUnit unit;
+  const ToleranceViolation& violation;
+};
+
+Refusal violated(GoalError code, const char* kind, const Violator& by, const char* advice) {
+  const ToleranceViolation& v = by.violation;
+  return {code, fmt::format(
+                    "{0} {1} error {2:f}. The {3} of {0} is off by {4:.6g} {6}, allowed is {5:.6g} {6}. {7}",
+                    by.joint, kind, v.position_error, name(v.quantity), v.error, v.tolerance,
+                    symbol(by.unit, v.quantity), advice)};
 }
 
 }  // namespace
 
 Tolerances default_tolerances(const std::vector<double>& trajectory, const std::vector<double>& goal,
-                              double stopped_velocity_tolerance, double goal_time) {
-  if (trajectory.size() != goal.size()) {
+                              const std::vector<double>& stopped_velocity, double goal_time) {
+  if (trajectory.size() != goal.size() || stopped_velocity.size() != goal.size()) {
     throw std::invalid_argument(
-        fmt::format("tolerances: {} of constraints/<joint>/trajectory, but {} of "
-                    "constraints/<joint>/goal; each joint needs one of both",
-                    trajectory.size(), goal.size()));
+        fmt::format("tolerances: {} of constraints/<joint>/trajectory, {} of constraints/<joint>/goal and {} "
+                    "of constraints/stopped_velocity_tolerance; each joint needs one of each",
+                    trajectory.size(), goal.size(), stopped_velocity.size()));
   }
-  check_parameter("constraints/stopped_velocity_tolerance", stopped_velocity_tolerance);
   check_parameter("constraints/goal_time", goal_time);
   Tolerances result;
   result.goal_time = GoalTime(goal_time);
   for (std::size_t i = 0; i < goal.size(); ++i) {
     check_parameter(fmt::format("constraints/<joint {}>/trajectory", i), trajectory[i]);
     check_parameter(fmt::format("constraints/<joint {}>/goal", i), goal[i]);
+    check_parameter("constraints/stopped_velocity_tolerance", stopped_velocity[i]);
     result.path.push_back({trajectory[i], 0.0, 0.0});
-    result.goal.push_back({goal[i], stopped_velocity_tolerance, 0.0});
+    result.goal.push_back({goal[i], stopped_velocity[i], 0.0});
   }
   return result;
 }
@@ -96,15 +105,17 @@ std::optional<ToleranceViolation> find_tolerance_violation(const std::vector<Sta
   return std::nullopt;
 }
 
-Refusal path_tolerance_violated(const std::string& joint, const ToleranceViolation& violation) {
-  return violated(GoalError::PathToleranceViolated, "path", joint, violation,
+Refusal path_tolerance_violated(const std::string& joint, JointUnit unit,
+                                const ToleranceViolation& violation) {
+  return violated(GoalError::PathToleranceViolated, "path", {joint, unit, violation},
                   "Slow the trajectory down, or widen its path_tolerance or the parameter "
                   "constraints/<joint>/trajectory.");
 }
 
-Refusal goal_tolerance_violated(const std::string& joint, const ToleranceViolation& violation) {
+Refusal goal_tolerance_violated(const std::string& joint, JointUnit unit,
+                                const ToleranceViolation& violation) {
   return violated(
-      GoalError::GoalToleranceViolated, "goal", joint, violation,
+      GoalError::GoalToleranceViolated, "goal", {joint, unit, violation},
       "Allow more time to settle (goal_time_tolerance), or widen the goal_tolerance or the parameters "
       "constraints/<joint>/goal and constraints/stopped_velocity_tolerance.");
 }

@@ -19,6 +19,8 @@
 namespace interpolated_motion::transport {
 namespace {
 
+constexpr const char* kTerminals = "/dev/pts/";
+
 [[noreturn]] void fail(const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(errno)));
 }
@@ -29,14 +31,20 @@ int open_far_end() {
   return fd;
 }
 
-/// A program that was killed leaves its link behind: it leads nowhere, or to a terminal made anew since. One
-/// that leads elsewhere is in use.
-void remove_stale_link(const std::string& path, const std::string& link) {
+/// Empty where there is no such link.
+std::string target_of(const std::string& link) {
   std::array<char, 64> target{};
   const ssize_t length = readlink(link.c_str(), target.data(), target.size());
-  if (length < 0) return;
-  const std::string leads_to(target.data(), static_cast<std::size_t>(length));
-  if (leads_to == path || access(link.c_str(), F_OK) != 0) unlink(link.c_str());
+  return {target.data(), length > 0 ? static_cast<std::size_t>(length) : 0};
+}
+
+/// A program that was killed leaves its link behind: it leads to a terminal that is no more, or to one that
+/// was made anew since. One that leads to another terminal is in use, and one that leads elsewhere is not
+/// ours.
+void remove_stale_link(const std::string& terminal, const std::string& link) {
+  const std::string leads_to = target_of(link);
+  if (leads_to.rfind(kTerminals, 0) != 0) return;
+  if (leads_to == terminal || access(link.c_str(), F_OK) != 0) unlink(link.c_str());
 }
 
 }  // namespace
@@ -57,6 +65,7 @@ class PseudoTerminal::Implementation {
 
  private:
   std::string link_;
+  std::string terminal_;  ///< where link_ leads
   // Held open, so that the line goes on existing while no other program has it open.
   int near_end_ = -1;
 };
@@ -89,11 +98,12 @@ PseudoTerminal::Implementation::Implementation(boost::asio::io_context& io, std:
     fail("cannot make the link " + link +
          (error == EEXIST ? " (served by another program? else remove it)" : ""));
   }
+  terminal_ = path;
   path = link_ = std::move(link);
 }
 
 PseudoTerminal::Implementation::~Implementation() {
-  if (!link_.empty()) unlink(link_.c_str());
+  if (!link_.empty() && target_of(link_) == terminal_) unlink(link_.c_str());
   if (near_end_ >= 0) close(near_end_);
 }
 

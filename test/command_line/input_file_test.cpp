@@ -1,5 +1,7 @@
 #include "interpolated_motion_driver/command_line/input_file.h"
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -46,6 +48,14 @@ TEST_F(InputFile, AnEmptyOneHoldsNothing) {
 TEST_F(InputFile, WhyItCannotBeReadIsSaid) {
   EXPECT_EQ(refusal("/nowhere/a.yaml"), "/nowhere/a.yaml cannot be read: No such file or directory");
   EXPECT_EQ(refusal("/"), "/ cannot be read: Is a directory");
+}
+
+// Opening it to read would wait until somebody writes.
+TEST_F(InputFile, AFifoIsRefusedAndNotWaitedFor) {
+  std::remove(path_.c_str());
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_EQ(refusal(path_), path_ + " cannot be read: it is a FIFO. Name a file");
+  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero cannot be read: it is a device. Name a file");
 }
 
 TEST_F(InputFile, AKeyGivenTwiceIsSaid) {

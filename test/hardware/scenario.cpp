@@ -145,9 +145,9 @@ std::map<std::string, trajectory::JointLimits> six_axis_urdf() {
   return limits;
 }
 
-Scenario::Scenario(const YAML::Node& parameters)
-    : driver_(std::make_unique<hardware::MotionHardware>(
-          hardware::parse_configuration(parameters, six_axis_urdf()), now_)) {}
+Scenario::Scenario(const YAML::Node& parameters, const std::map<std::string, trajectory::JointLimits>& urdf)
+    : driver_(std::make_unique<hardware::MotionHardware>(hardware::parse_configuration(parameters, urdf),
+                                                         now_)) {}
 
 void Scenario::run(double seconds) {
   run_until([] { return false; }, seconds);

@@ -42,7 +42,8 @@ std::map<std::string, trajectory::JointLimits> six_axis_urdf();
 /// The whole driver with emulated drives in virtual time.
 class Scenario {
  public:
-  explicit Scenario(const YAML::Node& parameters = six_axis());
+  explicit Scenario(const YAML::Node& parameters = six_axis(),
+                    const std::map<std::string, trajectory::JointLimits>& urdf = six_axis_urdf());
 
   hardware::MotionHardware& driver() { return *driver_; }
   HostTime now() const { return now_; }
@@ -59,7 +60,7 @@ class Scenario {
   /// Runs until the goal has ended; fails the test when it does not within `seconds`.
   motion::GoalResult result_of(motion::GoalId id, double seconds = 60.0);
   motion::RequestResult result_of_request(motion::RequestId id, double seconds = 10.0);
-  /// Actual positions, rad.
+  /// Actual positions, rad or m.
   std::vector<double> positions();
   /// Texts logged so far.
   const std::vector<std::string>& log() const { return log_; }

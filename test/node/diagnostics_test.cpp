@@ -46,6 +46,20 @@ TEST(DriveDiagnostics, AnErrorCodeIsToldWithItsText) {
   EXPECT_NE(status.message.find("following error"), std::string::npos);
 }
 
+TEST(DriveDiagnostics, LengthsAreInMetres) {
+  auto joint = healthy();
+  joint.following_error = 0.0005;
+  const auto following_error = [&joint] {
+    const DiagnosticStatus status = diagnose(joint);
+    for (const auto& value : status.values)
+      if (value.key == "following error") return value.value;
+    return std::string("not told");
+  };
+  EXPECT_EQ(following_error(), "0.000500 rad");
+  joint.unit = trajectory::JointUnit::Metre;
+  EXPECT_EQ(following_error(), "0.000500 m");
+}
+
 TEST(DriveDiagnostics, ABufferThatRanDryIsAWarning) {
   auto joint = healthy();
   joint.underruns = 2;

@@ -115,6 +115,22 @@ TEST_F(MessageConversion, BufferStatusHasTheLoadOfTheJointsBus) {
   EXPECT_EQ(message.bus_load, (std::vector<double>{0.125, 0.125}));
 }
 
+TEST_F(MessageConversion, UnitsAreThoseOfTheJoints) {
+  auto mixed = snapshot();
+  mixed.joints[1].unit = trajectory::JointUnit::Metre;
+  interpolated_motion_driver::DriveState message;
+  fill_drive_states(mixed, message);
+  EXPECT_EQ(message.unit, (std::vector<std::string>{"rad", "m"}));
+  motion::MotionReport report;
+  report.joints.resize(1);
+  report.joints[0].unit = trajectory::JointUnit::Metre;
+  report.joints[0].count = 2.5e-6;
+  interpolated_motion_driver::GetMotionReport::Response response;
+  fill_motion_report(report, response);
+  EXPECT_EQ(response.unit.at(0), "m");
+  EXPECT_EQ(response.count.at(0), 2.5e-6);
+}
+
 TEST_F(MessageConversion, DeviationsOfARealDriveAreUnknown) {
   motion::MotionReport report;
   report.valid = true;

@@ -42,6 +42,14 @@ TEST(RobotDescription, LimitsOfARevoluteJoint) {
   EXPECT_FALSE(limits.continuous);
 }
 
+TEST(RobotDescription, APrismaticJointIsInMetres) {
+  std::string urdf = kUrdf;
+  urdf.replace(urdf.find("revolute"), std::string("revolute").size(), "prismatic");
+  EXPECT_EQ(joint_limits({urdf, "test"}, {"hinge"}).at("hinge").unit, trajectory::JointUnit::Metre);
+  EXPECT_EQ(joint_limits({urdf, "test"}, {"wheel"}).at("wheel").unit, trajectory::JointUnit::Radian);
+  EXPECT_EQ(joint_limits({kUrdf, "test"}, {"hinge"}).at("hinge").unit, trajectory::JointUnit::Radian);
+}
+
 TEST(RobotDescription, AContinuousJointHasNoPositionLimits) {
   const auto limits = joint_limits({kUrdf, "test"}, {"wheel"}).at("wheel");
   EXPECT_TRUE(limits.continuous);

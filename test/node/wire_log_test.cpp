@@ -1,8 +1,11 @@
 #include "interpolated_motion_driver/node/wire_log.h"
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,7 +32,17 @@ std::vector<std::string> lines_of(const std::string& path) {
 
 class WireLogFile : public testing::Test {
  protected:
+  void SetUp() override { std::remove(path_.c_str()); }
   void TearDown() override { std::remove(path_.c_str()); }
+
+  std::string refusal() const {
+    try {
+      WireLog log(path_, HostDuration(0), {"can0"});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "opened";
+  }
 
   const std::string path_ = testing::TempDir() + "wire_log_test.log";
 };
@@ -65,6 +78,30 @@ TEST_F(WireLogFile, TakesFramesAndTextsInTheirOrder) {
                                           "(3.000000) line0 < * 10",
                                           "(4.000000) line0 < " + std::string(WireLog::kLongestText, 'x')};
   EXPECT_EQ(lines_of(path_), expected);
+}
+
+TEST_F(WireLogFile, GoesOnBehindAnEarlierOne) {
+  for (const std::uint32_t id : {0x81U, 0x82U}) {
+    WireLog log(path_, HostDuration(0), {"can0"});
+    log.append("can0", canopen::ReceivedFrame{frame(id, {}), HostTime(std::chrono::seconds(1)), true});
+  }
+  EXPECT_EQ(lines_of(path_), (std::vector<std::string>{"(1.000000) can0 081#", "(1.000000) can0 082#"}));
+}
+
+TEST_F(WireLogFile, NeverEmptiesWhatIsNoWireLog) {
+  for (const char* text :
+       {"joints: [joint1]\n", "(5) can0\n", "(.000000) can0\n", "(1.00) can0\n", "(12", "\n"}) {
+    std::ofstream(path_) << text;
+    EXPECT_NE(refusal().find("Parameter wire_log: " + path_ + " cannot be written: there is"),
+              std::string::npos);
+    std::ifstream in(path_);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), text);
+  }
+}
+
+TEST_F(WireLogFile, AFifoWithoutAReaderIsRefusedAtOnce) {
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_NE(refusal().find("it is a FIFO"), std::string::npos);
 }
 
 TEST_F(WireLogFile, KeepsTheOrderAndAddsTheOffset) {

@@ -1,4 +1,6 @@
 """Command lines: what the programs say to a user who does not know them, or errs."""
+import os
+import xmlrpc.client
 from pathlib import Path
 
 import pytest
@@ -19,7 +21,7 @@ def test_help_needs_neither_ros_nor_a_configuration(run, program, flag):
 
 OPTIONS = {
     "trajectory_client": {"--goal FILE": "YAML", "--setpoints SECONDS": "0.1..3600 s", "--lost PART": "0..0.9 (default: 0)",
-                          "--node NAME": "/driver", "--wait SECONDS": "s (default: 60)", "--timeout SECONDS": "1e6 s (default"},
+                          "--node NAME": "/driver", "--wait SECONDS": "1e6 s (default: 0", "--timeout SECONDS": "1e6 s (default"},
     "emulated_drives": {"--config FILE": "", "--can INTERFACE": "", "--epos NODES": "1..127", "--serial LINK": "", "--bus NAME": "default",
                         "--silverlode ADDRESSES": "1..254", "--clock-error-ppm PPM": "ppm (default", "--bitrate BIT/S": "bit/s (default",
                         "--baud BIT/S": "57600", "--samples FOLDER": "default"},
@@ -155,11 +157,66 @@ def test_trajectory_client_waits_for_a_master_no_longer_than_it_says(run):
 def test_trajectory_client_waits_for_the_driver_no_longer_than_it_says(run, master):
     result = run("trajectory_client", "--goal", GOAL, "--wait=2", "--node", "/arm")
     assert result.code == 5, result.error
-    assert "nobody serves the action /arm/follow_joint_trajectory" in result.error
-    assert "waiting for the action /arm/follow_joint_trajectory" in result.out
+    assert "there is no node /arm. Start the driver first, or say by --wait" in result.error
+    assert "waiting for the driver /arm" in result.out
 
 
 def test_the_time_for_the_whole_run_covers_the_wait_for_the_driver(run, master):
-    result = run("trajectory_client", "--setpoints", "1", "--timeout", "1.5")
+    result = run("trajectory_client", "--setpoints", "1", "--wait", "50", "--timeout", "1.5")
     assert result.code == 5, result.error
-    assert "nobody serves the action /driver/follow_joint_trajectory" in result.error
+    assert "there is no node /driver" in result.error
+
+
+def test_without_being_told_to_wait_trajectory_client_is_for_a_driver_that_is_there(run, master):
+    for motion in (["--goal", GOAL], ["--setpoints", "1"]):
+        result = run("trajectory_client", *motion)
+        assert result.code == 5, result.error
+        assert "there is no node /driver" in result.error
+        assert result.seconds < 20  # it did not wait for one
+
+
+def test_without_being_told_to_wait_trajectory_client_does_not_wait_for_a_master(run):
+    result = run("trajectory_client", "--goal", GOAL)
+    assert result.code == 5, result.error
+    assert "no answer from ROS's master" in result.error
+    assert "waiting" not in result.out
+
+
+def test_a_driver_that_takes_the_name_while_its_predecessor_comes_up_is_sent_nothing(run, master, master_uri, fake_driver):
+    """The first one is there when the client is asked, and never serves its action. The second one does."""
+    first = "http://127.0.0.1:1"
+    xmlrpc.client.ServerProxy(master_uri).registerService("/driver", "/driver/halt", "rosrpc://127.0.0.1:1", first)
+    driver = fake_driver(3.0)
+    result = run("trajectory_client", "--goal", GOAL)
+    assert result.code == 5, result.error
+    assert "has ended and another one has been started; it is sent nothing" in result.error
+    assert driver.goals() == 0
+
+
+def test_a_driver_that_is_waited_for_is_sent_the_goal(run, master, fake_driver):
+    driver = fake_driver(3.0)
+    result = run("trajectory_client", "--goal", GOAL, "--wait", "50")
+    assert result.code == 0, result.error
+    assert driver.goals() == 1
+
+
+def test_a_fifo_for_a_file_is_refused_and_not_waited_for(run, tmp_path):
+    os.mkfifo(tmp_path / "fifo")
+    for program, option in (("trajectory_client", "--goal"), ("emulated_drives", "--config")):
+        result = run(program, option, str(tmp_path / "fifo"))
+        assert result.code == 2
+        assert f"{tmp_path}/fifo cannot be read: it is a FIFO" in result.error
+
+
+def test_samples_are_not_written_through_a_link_nor_over_something_else(run, tmp_path):
+    (tmp_path / "mine").write_text("what I had to say\n")
+    (tmp_path / "linked").mkdir()
+    (tmp_path / "linked" / "16").symlink_to(tmp_path / "mine")
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "taken" / "16").write_text("notes\n")
+    for folder, reason in (("linked", "a symbolic link"), ("taken", "something else in it, which is kept")):
+        result = run("emulated_drives", "--serial", str(tmp_path / "line"), "--silverlode", "16", "--samples", str(tmp_path / folder))
+        assert result.code != 0
+        assert "--samples: " in result.error and reason in result.error
+    assert (tmp_path / "mine").read_text() == "what I had to say\n"
+    assert (tmp_path / "taken" / "16").read_text() == "notes\n"

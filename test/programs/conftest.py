@@ -2,6 +2,7 @@
 import os
 import socket
 import subprocess
+import sys
 import time
 
 import pytest
@@ -41,6 +42,38 @@ def run(tmp_path, master_uri):
         return Result(done.returncode, done.stdout, done.stderr, time.monotonic() - begin)
 
     return call
+
+
+class FakeDriver:
+    """A node of the driver's name that serves its action, as of `delay` seconds from now, and succeeds at once."""
+
+    def __init__(self, folder, master_uri, delay):
+        self.log = folder / "goals"
+        packages = os.path.join(PROGRAMS, os.pardir, "python3", "dist-packages")
+        environment = {**os.environ, "ROS_MASTER_URI": master_uri, "ROS_HOSTNAME": "localhost", "ROS_HOME": str(folder),
+                       "PYTHONPATH": packages + os.pathsep + os.environ.get("PYTHONPATH", "")}
+        script = os.path.join(os.path.dirname(__file__), "fake_driver.py")
+        self.process = subprocess.Popen([sys.executable, "-B", script, str(delay), str(self.log)], env=environment)
+
+    def goals(self):
+        return len(self.log.read_text().splitlines()) if self.log.exists() else 0
+
+    def stop(self):
+        self.process.terminate()
+        self.process.wait()
+
+
+@pytest.fixture
+def fake_driver(tmp_path, master_uri):
+    drivers = []
+
+    def start(delay):
+        drivers.append(FakeDriver(tmp_path, master_uri, delay))
+        return drivers[-1]
+
+    yield start
+    for driver in drivers:
+        driver.stop()
 
 
 @pytest.fixture

@@ -19,6 +19,7 @@ Subject subject() {
   Subject subject;
   subject.configuration = "{joints: [joint1, joint2]}";
   subject.limits["joint1"] = {-3.1, 3.1, 3.5, std::numeric_limits<double>::infinity(), false};
+  subject.limits["joint1"].unit = trajectory::JointUnit::Metre;
   subject.joints = {"joint1", "joint2"};
   subject.buses = {"can0", "line0"};
   return subject;
@@ -86,6 +87,7 @@ TEST(FlightRecorder, OrdersComeBackToTheLastBit) {
   EXPECT_EQ(file.end, at(3.0));
   EXPECT_EQ(file.cause, "a test");
   EXPECT_EQ(file.limits.at("joint1").max_velocity, 3.5);
+  EXPECT_EQ(file.limits.at("joint1").unit, trajectory::JointUnit::Metre);
   EXPECT_EQ(file.configuration["joints"][1].as<std::string>(), "joint2");
 }
 

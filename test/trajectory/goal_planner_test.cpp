@@ -49,6 +49,30 @@ TEST(GoalPlanner, StartsAtTheFirstPoint) {
   EXPECT_NEAR(plan.paths[0].final_position(), 2.0, 1e-15);
 }
 
+JointLimits of_a_slide(double velocity, double acceleration) {
+  JointLimits limits = limits_of(velocity, acceleration);
+  limits.unit = JointUnit::Metre;
+  return limits;
+}
+
+TEST(GoalPlanner, SpeaksOfMetresToAPrismaticJoint) {
+  const JointLimits slide = of_a_slide(0.1, 1.0);
+  EXPECT_TRUE(contains(refusal_of_one({point(0, {0.5}), point(1, {0.5})}, 0.25, slide),
+                       "starts at 0.5 m, but the joint is at 0.25 m; allowed is a difference of 0.1 m"));
+  EXPECT_TRUE(
+      contains(refusal_of_one({point(0, {0}), point(0.5, {0.2})}, 0, slide), "allowed is -0.1 to 0.1 m/s."));
+  EXPECT_TRUE(contains(refusal_of_one({point(0, {0}), point(0.1, {0.005})}, 0, of_a_slide(1, 1)),
+                       "allowed is -1 to 1 m/s^2."));
+}
+
+// 1 mm/s is no rest for a screw: at 1 m/s^2 it takes a ms to lose it, at 0.1 m/s^2 ten.
+TEST(GoalPlanner, APrismaticJointRestsBelowATenthOfAMillimetreASecond) {
+  const std::vector<Waypoint> ends_at_5e_4{point(0, {0}), point(1, {0.01}, {5e-4})};
+  EXPECT_TRUE(contains(refusal_of_one(ends_at_5e_4, 0, of_a_slide(0.1, 1.0)),
+                       "has a velocity of 0.0005 m/s, allowed is 0.0001 at most"));
+  plan_one(ends_at_5e_4, 0, limits_of(0.1, 1.0));
+}
+
 TEST(GoalPlanner, NeedsNoLeadInBelowTheThreshold) {
   const GoalPlan plan = plan_one({point(0, {0}), point(1, {1})}, 0.00009);
   EXPECT_EQ(plan.lead_in.count(), 0.0);
@@ -79,7 +103,8 @@ TEST(GoalPlanner, LeadsInForAtLeastTwentyMilliseconds) {
 
 TEST(GoalPlanner, RefusesAStartFarFromThePresentPosition) {
   const std::string text = refusal_of_one({point(0, {0.5}), point(1, {1})}, 0.25);
-  EXPECT_TRUE(contains(text, "joint1: the trajectory starts at 0.5, but the joint is at 0.25")) << text;
+  EXPECT_TRUE(contains(text, "joint1: the trajectory starts at 0.5 rad, but the joint is at 0.25 rad"))
+      << text;
   EXPECT_TRUE(contains(text, "difference of 0.1")) << text;
 }
 
@@ -125,7 +150,7 @@ TEST(GoalPlanner, ReplacesAMovingStartByThePresentState) {
 TEST(GoalPlanner, TellsThatABridgeIsTooFast) {
   const std::string text = refusal_of_one(
       {point(0, {0}, {1.0}), point(0.02, {0.02}, {1.0}), point(2, {1}, {0})}, 0.0, limits_of(2, 5));
-  EXPECT_TRUE(contains(text, "on the way from rest at the present position 0 to points[1]")) << text;
+  EXPECT_TRUE(contains(text, "on the way from rest at the present position 0 rad to points[1]")) << text;
 }
 
 TEST(GoalPlanner, TakesNoiseAtTheEndsForRest) {
@@ -137,14 +162,16 @@ TEST(GoalPlanner, TakesNoiseAtTheEndsForRest) {
 
 TEST(GoalPlanner, RefusesAnEndThatMoves) {
   const std::string text = refusal_of_one({point(0, {0}, {0}), point(1, {1}, {-0.2})});
-  EXPECT_TRUE(contains(text, "joint1: the last point, points[1], has a velocity of -0.2, allowed is 0.001"))
+  EXPECT_TRUE(
+      contains(text, "joint1: the last point, points[1], has a velocity of -0.2 rad/s, allowed is 0.001"))
       << text;
 }
 
 TEST(GoalPlanner, RefusesWhatLeavesTheLimitsBetweenThePoints) {
   // 1 rad in 1 s with zero velocities: the cubic peaks at 1.5 rad/s.
   const std::string text = refusal_of_one({point(0, {0}, {0}), point(1, {1}, {0})}, 0.0, limits_of(1.4, 100));
-  EXPECT_TRUE(contains(text, "joint1: the velocity reaches 1.5 at 0.500000 s, allowed is -1.4 to 1.4"))
+  EXPECT_TRUE(
+      contains(text, "joint1: the velocity reaches 1.5 rad/s at 0.500000 s, allowed is -1.4 to 1.4 rad/s."))
       << text;
   // joint_trajectory_controller accepts 50 rad in 0.5 s on a joint of 6.28 rad/s.
   EXPECT_TRUE(contains(refusal_of_one({point(0.5, {50})}, 0.0, limits_of(6.28, 1e9)), "velocity"));

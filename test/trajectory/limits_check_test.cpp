@@ -68,7 +68,7 @@ TEST(LimitsCheck, SaysWhetherItIsRoundingAKnotOrBetweenKnots) {
   JointLimits limits;
   limits.max_velocity = 1.875 / 1.02;
   const auto text_of = [&limits](const Path& path) {
-    return limit_refusal("elbow", *find_limit_violation(path, limits)).text;
+    return limit_refusal("elbow", JointUnit::Radian, *find_limit_violation(path, limits)).text;
   };
   const auto has = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
@@ -146,7 +146,8 @@ TEST(LimitsCheck, FindsATurnWithinAPieceThatBeginsOutside) {
   const auto violation = find_limit_violation(Path({turns}), between(0.0, 1.0));
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->begins_outside, -0.2);
-  EXPECT_NE(limit_refusal("elbow", *violation).text.find("stands outside, at -0.2"), std::string::npos);
+  EXPECT_NE(limit_refusal("elbow", JointUnit::Radian, *violation).text.find("stands outside, at -0.2"),
+            std::string::npos);
 }
 
 TEST(LimitsCheck, HoldsTheOtherLimitsOnTheWayIn) {
@@ -185,11 +186,12 @@ TEST(LimitsCheck, TakesNotANumberForAViolation) {
 TEST(LimitsCheck, SaysWhatToDo) {
   JointLimits limits;
   limits.max_velocity = 1.0;
-  const Refusal refusal = limit_refusal("elbow", *find_limit_violation(unit_move(), limits));
+  const Refusal refusal =
+      limit_refusal("elbow", JointUnit::Radian, *find_limit_violation(unit_move(), limits));
   EXPECT_EQ(refusal.code, GoalError::InvalidGoal);
   EXPECT_EQ(
       refusal.text,
-      "elbow: the velocity reaches 1.875 at 0.500000 s, allowed is -1 to 1 (SI units). The curve between "
+      "elbow: the velocity reaches 1.875 rad/s at 0.500000 s, allowed is -1 to 1 rad/s. The curve between "
       "two points does: give accelerations with the points, or more points. Slow the trajectory down "
       "by a factor of 1.875 or more, or correct the joint's limits.");
 }

@@ -16,6 +16,14 @@ Goal goal_at(const std::vector<double>& times, const std::vector<double>& positi
   return goal;
 }
 
+GoalRules revolute() { return rules_for(1); }
+
+GoalRules prismatic() {
+  JointLimits limits;
+  limits.unit = JointUnit::Metre;
+  return rules_for(1, limits);
+}
+
 TEST(DropPastPoints, KeepsAllWithoutStampOrBeforeIt) {
   Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
   EXPECT_EQ(drop_past_points(goal, host_time(100)).value().first, 0u);
@@ -59,26 +67,39 @@ TEST(DropPastPoints, RefusesAGoalThatIsOver) {
 }
 
 TEST(MergeNearPoints, KeepsWhatIsFarEnoughApart) {
-  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.0001, 2}, {0, 1, 1.5, 2}), 0).value(), (Indices{0, 1, 2, 3}));
-  EXPECT_EQ(merge_near_points(goal_at({0, 1, 2}, {0, 1, 2}), 1).value(), (Indices{1, 2}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.0001, 2}, {0, 1, 1.5, 2}), revolute(), 0).value(),
+            (Indices{0, 1, 2, 3}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 2}, {0, 1, 2}), revolute(), 1).value(), (Indices{1, 2}));
 }
 
 TEST(MergeNearPoints, KeepsTheLastOfALastStepOfNanoseconds) {
-  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1}), 0).value(), (Indices{0, 2}));
-  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1 + 3e-9, 1 + 6e-9}, {0, 1, 1, 1 + 1e-9}), 0).value(),
-            (Indices{0, 3}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1}), revolute(), 0).value(), (Indices{0, 2}));
+  EXPECT_EQ(
+      merge_near_points(goal_at({0, 1, 1 + 3e-9, 1 + 6e-9}, {0, 1, 1, 1 + 1e-9}), revolute(), 0).value(),
+      (Indices{0, 3}));
 }
 
 TEST(MergeNearPoints, KeepsTheEarlierElsewhere) {
-  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.00005, 2}, {0, 1, 1, 2}), 0).value(), (Indices{0, 1, 3}));
-  EXPECT_EQ(merge_near_points(goal_at({0, 1e-9, 2}, {0, 0, 2}), 0).value(), (Indices{0, 2}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.00005, 2}, {0, 1, 1, 2}), revolute(), 0).value(),
+            (Indices{0, 1, 3}));
+  EXPECT_EQ(merge_near_points(goal_at({0, 1e-9, 2}, {0, 0, 2}), revolute(), 0).value(), (Indices{0, 2}));
+}
+
+// 1 um is a fifth of a count of an arm's joint, and some counts of a good screw.
+TEST(MergeNearPoints, ALengthIsDroppedUpToATenthOfAMicrometre) {
+  const auto move_by = [](double length) { return goal_at({0, 1, 1 + 3e-9}, {0, 1, 1 + length}); };
+  EXPECT_TRUE(merge_near_points(move_by(0.9e-7), prismatic(), 0).has_value());
+  EXPECT_TRUE(merge_near_points(move_by(0.9e-6), revolute(), 0).has_value());
+  const auto refusal = merge_near_points(move_by(0.9e-6), prismatic(), 0).error();
+  EXPECT_NE(refusal.text.find("by 9e-07 m; the shortest"), std::string::npos) << refusal.text;
 }
 
 TEST(MergeNearPoints, RefusesAJumpInNoTime) {
-  const auto refusal = merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1.001}), 0).error();
+  const auto refusal = merge_near_points(goal_at({0, 1, 1 + 3e-9}, {0, 1, 1.001}), revolute(), 0).error();
   EXPECT_EQ(refusal.code, GoalError::InvalidGoal);
-  EXPECT_NE(refusal.text.find("points[1] and points[2] are 3e-09 s apart and move joint 'joint1' by 0.001"),
-            std::string::npos)
+  EXPECT_NE(
+      refusal.text.find("points[1] and points[2] are 3e-09 s apart and move joint 'joint1' by 0.001 rad"),
+      std::string::npos)
       << refusal.text;
 }
 

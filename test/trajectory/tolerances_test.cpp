@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> kJoints{"joint1", "joint2"};
 
-Tolerances defaults() { return default_tolerances({0.1, 0.2}, {0.01, 0.0}, 0.05, 0.5); }
+Tolerances defaults() { return default_tolerances({0.1, 0.2}, {0.01, 0.0}, {0.05, 0.05}, 0.5); }
 
 TEST(Tolerances, DefaultsComeFromTheParameters) {
   const Tolerances t = defaults();
@@ -22,12 +22,12 @@ TEST(Tolerances, DefaultsComeFromTheParameters) {
 }
 
 TEST(Tolerances, RefusesWrongParameters) {
-  EXPECT_THROW(default_tolerances({0.1}, {0.1, 0.1}, 0, 0), std::invalid_argument);
-  EXPECT_THROW(default_tolerances({-0.1}, {0.1}, 0, 0), std::invalid_argument);
-  EXPECT_THROW(default_tolerances({0.1}, {std::numeric_limits<double>::quiet_NaN()}, 0, 0),
+  EXPECT_THROW(default_tolerances({0.1}, {0.1, 0.1}, {0, 0}, 0), std::invalid_argument);
+  EXPECT_THROW(default_tolerances({-0.1}, {0.1}, {0}, 0), std::invalid_argument);
+  EXPECT_THROW(default_tolerances({0.1}, {std::numeric_limits<double>::quiet_NaN()}, {0}, 0),
                std::invalid_argument);
-  EXPECT_THROW(default_tolerances({0.1}, {0.1}, -1, 0), std::invalid_argument);
-  EXPECT_THROW(default_tolerances({0.1}, {0.1}, 0, -1), std::invalid_argument);
+  EXPECT_THROW(default_tolerances({0.1}, {0.1}, {-1}, 0), std::invalid_argument);
+  EXPECT_THROW(default_tolerances({0.1}, {0.1}, {0}, -1), std::invalid_argument);
 }
 
 TEST(Tolerances, GoalSetsKeepsAndErases) {
@@ -81,15 +81,18 @@ TEST(Tolerances, NotANumberIsOutside) {
 
 TEST(Tolerances, TextsStartAsThoseOfJointTrajectoryController) {
   const auto violation = *find_tolerance_violation({{0.05, 0, 0}}, {{0.06, 0, 0}}, {{0, 0, 0}});
-  const Refusal path = path_tolerance_violated("joint1", violation);
+  const Refusal path = path_tolerance_violated("joint1", JointUnit::Radian, violation);
   EXPECT_EQ(path.code, GoalError::PathToleranceViolated);
-  EXPECT_EQ(path.text.rfind(
-                "joint1 path error 0.060000. The position of joint1 is off by 0.06, allowed is 0.05. ", 0),
-            0u)
+  EXPECT_EQ(
+      path.text.rfind(
+          "joint1 path error 0.060000. The position of joint1 is off by 0.06 rad, allowed is 0.05 rad. ", 0),
+      0u)
       << path.text;
-  const Refusal goal = goal_tolerance_violated("joint1", violation);
+  const Refusal goal = goal_tolerance_violated("joint1", JointUnit::Radian, violation);
   EXPECT_EQ(goal.code, GoalError::GoalToleranceViolated);
   EXPECT_EQ(goal.text.rfind("joint1 goal error 0.060000. ", 0), 0u) << goal.text;
+  const Refusal slide = goal_tolerance_violated("slide", JointUnit::Metre, violation);
+  EXPECT_NE(slide.text.find("is off by 0.06 m, allowed is 0.05 m. "), std::string::npos) << slide.text;
 }
 
 }  // namespace

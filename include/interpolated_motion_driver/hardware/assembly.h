@@ -44,8 +44,8 @@ class Assembly {
   /// As MotionHardware::set_motion_observer().
   void set_motion_observer(SampleObserver observer);
 
-  /// Where the emulated drive of a joint stands, rad, whether or not its bus tells; nothing if it is not
-  /// emulated here.
+  /// Where the joint of an emulated drive stands in truth, rad or m, whether or not its bus tells; nothing if
+  /// it is not emulated here.
   std::optional<double> emulated_position(std::size_t joint) const;
 
   /// Whether the motor of a joint's emulated drive has power; nothing if it is not emulated here.
@@ -74,7 +74,7 @@ class Assembly {
   std::map<std::string, EmulatedBus> emulated_buses_;
   std::vector<std::unique_ptr<BusLink>> links_;
   std::vector<std::unique_ptr<axis::Axis>> axes_;
-  std::vector<encoding::Transmission> transmissions_;
+  std::vector<Mechanism> mechanisms_;  ///< as `joints` orders them
   std::vector<PathAudit> audits_;
   bool auditing_ = false;
   SampleObserver sample_observer_;

@@ -17,12 +17,13 @@ namespace interpolated_motion::hardware {
 /// Supervision of goals, named and meant as by joint_trajectory_controller.
 struct ConstraintConfiguration {
   struct Joint {
-    double trajectory = 0.0;  ///< rad, path tolerance; 0: none
-    double goal = 0.0;        ///< rad, goal tolerance; 0: none
+    double trajectory = 0.0;  ///< rad or m, path tolerance; 0: none
+    double goal = 0.0;        ///< rad or m, goal tolerance; 0: none
+    double start = 0.05;      ///< rad or m, of a goal's first point at t = 0 against the present position
+    double stopped_velocity = 0.01;  ///< rad/s or m/s that counts as standstill at the goal; 0: not checked
   };
-  double goal_time = 0.0;                    ///< s
-  double stopped_velocity_tolerance = 0.01;  ///< rad/s
-  std::map<std::string, Joint> joints;       ///< by name; an entry for each joint once it has been parsed
+  double goal_time = 0.0;               ///< s
+  std::map<std::string, Joint> joints;  ///< by name; an entry for each joint once it has been parsed
 };
 
 struct Configuration {
@@ -34,12 +35,11 @@ struct Configuration {
   /// deceleration.
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
-  double start_tolerance = 0.05;    ///< rad, of a goal's first point at t = 0 against the present position
-  double max_start_ahead = 3600.0;  ///< s from now to a goal's stamp; one further ahead is refused
-  double commit_horizon = 2.0;      ///< s of motion kept in the drives' FIFOs
-  double bring_up_timeout = 5.0;    ///< s for all drives to answer and be configured
-  double settle_timeout = 0.5;      ///< s after the last record for the joints to settle, when goal_time is 0
-  bool enable_on_start = true;      ///< power stages are switched on when all drives are configured
+  double max_start_ahead = 3600.0;         ///< s from now to a goal's stamp; one further ahead is refused
+  double commit_horizon = 2.0;             ///< s of motion kept in the drives' FIFOs
+  double bring_up_timeout = 5.0;           ///< s for all drives to answer and be configured
+  double settle_timeout = 0.5;  ///< s after the last record for the joints to settle, when goal_time is 0
+  bool enable_on_start = true;  ///< power stages are switched on when all drives are configured
   motion::StreamParameters setpoints;     ///< how streams of setpoints are followed
   RecorderConfiguration flight_recorder;  ///< what is kept of the last seconds, and when it is written
   /// The parameters that all this was read from, YAML on one line, without the node's own.

@@ -7,6 +7,7 @@
 
 #include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/hardware/drive_kinds.h"
+#include "interpolated_motion_driver/hardware/mechanism.h"
 #include "interpolated_motion_driver/hardware/parameter_reader.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 
@@ -20,6 +21,7 @@ struct DriveSettings {
 /// What the emulated drive of a joint does differently from a perfect one, whatever its kind.
 struct DriveEmulation {
   bool missing = false;               ///< there is no such drive on the bus
+  Mechanism mechanism;                ///< between joint and encoder; where none is told, the transmission
   std::int32_t initial_position = 0;  ///< counts, at power-up
   double clock_error_ppm = 0.0;       ///< of its crystal, positive: fast
 };
@@ -33,7 +35,7 @@ struct DriveConfiguration {
   encoding::Transmission transmission;  ///< between joint units and counts
   trajectory::JointLimits limits;       ///< URDF limits, tightened by the configuration
   double deviation_bound = 1.0;         ///< counts, worst deviation from the path at any drive sample
-  double max_following_error = 0.1;     ///< rad, beyond it the drive faults (0x6065, ERL)
+  double max_following_error = 0.1;     ///< rad or m, beyond it the drive faults (0x6065, ERL)
   /// 1..limit_margin; a plan may exceed the joint's velocity and acceleration by this factor
   double plan_margin = 1.01;
   double limit_margin = 1.2;  ///< 1..10; what the drive is given may exceed the joint's limits by this factor

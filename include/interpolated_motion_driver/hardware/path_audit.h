@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "interpolated_motion_driver/axis/axis.h"
-#include "interpolated_motion_driver/encoding/transmission.h"
 #include "interpolated_motion_driver/hardware/demand_sample.h"
+#include "interpolated_motion_driver/hardware/mechanism.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 
 namespace interpolated_motion::hardware {
@@ -13,10 +13,10 @@ namespace interpolated_motion::hardware {
 /// counts. The samples may come while the drive moves or afterwards, from a drive emulated elsewhere.
 class PathAudit {
  public:
-  /// `axis` must outlive the audit. `host_time`: the drive has no clock of its own for its motion, it follows
-  /// the host's.
-  PathAudit(const encoding::Transmission& transmission, const axis::Axis& axis, bool host_time)
-      : transmission_(transmission), axis_(&axis), host_time_(host_time) {}
+  /// `mechanism`: what is between the drive and the joint, whatever the driver takes it for. `axis` must
+  /// outlive the audit. `host_time`: the drive has no clock of its own for its motion, it follows the host's.
+  PathAudit(const Mechanism& mechanism, const axis::Axis& axis, bool host_time)
+      : mechanism_(mechanism), axis_(&axis), host_time_(host_time) {}
 
   /// Samples from `now` on belong to `path`.
   void begin(const trajectory::Path& path, HostTime now);
@@ -33,9 +33,10 @@ class PathAudit {
   std::uint64_t samples() const { return samples_; }
   double worst_deviation() const { return worst_; }  ///< counts
   double final_deviation() const { return final_; }  ///< counts, at the last sample compared
+  double count() const;                              ///< rad or m of the joint in one count, above 0
 
  private:
-  encoding::Transmission transmission_;
+  Mechanism mechanism_;
   const axis::Axis* axis_;
   bool host_time_;
   trajectory::Path path_;

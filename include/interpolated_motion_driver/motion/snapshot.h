@@ -7,17 +7,27 @@
 
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/setpoint.h"
+#include "interpolated_motion_driver/trajectory/joint_unit.h"
 #include "interpolated_motion_driver/trajectory/polynomial.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::motion {
 
+/// As axis::AxisStatus: what a drive says of its FIFO and of the records in it.
+struct BufferWarnings {
+  bool underflow = false;
+  bool overflow = false;
+  bool velocity = false;
+  bool acceleration = false;
+};
+
 /// Everything that is published of one joint, at one instant.
 struct JointSnapshot {
   std::string joint;  ///< in the order of the configuration, as all joints here
   std::string bus;    ///< as the configuration names it
+  trajectory::JointUnit unit = trajectory::JointUnit::Radian;  ///< of all its positions here
 
-  /// The committed trajectory at the drive's estimated play-back time (rad, rad/s, rad/s^2). Of a joint that
+  /// The committed trajectory at the drive's estimated play-back time. Of a joint that
   /// brakes by itself, or that no drive holds: what it does.
   trajectory::State desired;
   trajectory::State actual;  ///< as the drive reports; no acceleration
@@ -26,19 +36,15 @@ struct JointSnapshot {
   std::string state;             ///< CiA 402 state, or its SilverLode equal, as text
   std::uint16_t statusword = 0;  ///< CiA 402 statusword 0x6041; of SilverLode the polling status word
   std::int8_t mode = 0;          ///< modes of operation display 0x6061; 0 of SilverLode
-  double demand_position = 0.0;  ///< rad, the drive's own demand value
-  double following_error = 0.0;  ///< rad, demand minus actual
+  double demand_position = 0.0;  ///< the drive's own demand value
+  double following_error = 0.0;  ///< demand minus actual
   std::uint16_t error_code = 0;  ///< last EMCY error code since the last reset, 0 none
   std::string error_text;        ///< what the code means; empty: none
 
   std::uint32_t capacity = 0;  ///< records the FIFO holds
   std::uint32_t fill = 0;  ///< records in the FIFO, estimated from time and corrected by the drive's reports
   double fill_time = 0.0;  ///< s of motion left in the FIFO
-  /// As axis::AxisStatus: what the drive says of its FIFO and of the records in it.
-  bool underflow_warning = false;
-  bool overflow_warning = false;
-  bool velocity_warning = false;
-  bool acceleration_warning = false;
+  BufferWarnings warnings;
   std::uint32_t underruns = 0;       ///< since start of the driver
   std::uint32_t overflows = 0;       ///< since start of the driver
   std::uint32_t refused_writes = 0;  ///< records the drive did not take
@@ -99,8 +105,10 @@ struct Snapshot {
 
 /// Figures of the last goal that moved, for `scripts/demo` and for benches.
 struct JointReport {
-  std::string joint;                 ///< in the order of the configuration
-  std::string bus;                   ///< as the configuration names it
+  std::string joint;                                           ///< in the order of the configuration
+  std::string bus;                                             ///< as the configuration names it
+  trajectory::JointUnit unit = trajectory::JointUnit::Radian;  ///< of its positions
+  double count = 0.0;                ///< rad or m of the joint in one count of its encoder
   std::uint64_t records_sent = 0;    ///< for this goal
   std::uint32_t minimum_fill = 0;    ///< records, while interpolating and more were to come
   std::uint32_t underruns = 0;       ///< during this goal

@@ -19,9 +19,10 @@ struct RobotDescription {
 /// Throws std::invalid_argument with the source when the text is no URDF.
 urdf::ModelInterfaceSharedPtr parse_urdf(const RobotDescription& description);
 
-/// Position and velocity limits of `joints` as the URDF has them, and whether they are continuous; a URDF has
-/// no acceleration limits. Throws std::invalid_argument with joint and source when the text is no URDF, a
-/// joint is not in it, is fixed, mimics another or has more than one axis, or when its limits make no sense.
+/// Position and velocity limits of `joints` as the URDF has them, and whether they are continuous or
+/// prismatic; a URDF has no acceleration limits. Throws std::invalid_argument with joint and source when the
+/// text is no URDF, a joint is not in it, is fixed, mimics another or has more than one axis, or when its
+/// limits make no sense.
 std::map<std::string, trajectory::JointLimits> joint_limits(const RobotDescription& description,
                                                             const std::vector<std::string>& joints);
 

@@ -3,14 +3,13 @@
 #include <array>
 #include <condition_variable>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <variant>
 #include <vector>
 
+#include "interpolated_motion_driver/command_line/output_file.h"
 #include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -30,9 +29,10 @@ std::string serial_line(const std::string& bus, bool from_host, std::string_view
 /// bounded queue; when the file system cannot keep up, frames and lines are left out and counted.
 class WireLog {
  public:
-  /// Opens `path` anew; a relative one is below the process's working folder, which roslaunch sets to
-  /// ROS_HOME. `offset`: wall clock minus host clock. `buses`: every name that will be given to append().
-  /// Throws std::runtime_error when the file cannot be written.
+  /// Opens `path`, and goes on behind what is there if that is such a log; a relative path is below the
+  /// process's working folder, which roslaunch sets to ROS_HOME. `offset`: wall clock minus host clock.
+  /// `buses`: every name that will be given to append(). Throws std::runtime_error when the file cannot be
+  /// written, is none, or holds something else.
   WireLog(const std::string& path, HostDuration offset, std::vector<std::string> buses);
   /// Writes what is queued and closes the file.
   ~WireLog();
@@ -65,10 +65,6 @@ class WireLog {
     std::size_t bus;  ///< index in buses_
     Traffic traffic;  ///< a frame or a line of text
   };
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
   void queue(const std::string& bus, const Traffic& traffic);
   void run();
   void write(const std::vector<Entry>& entries);
@@ -77,7 +73,7 @@ class WireLog {
   const std::string path_;
   const HostDuration offset_;
   const std::vector<std::string> buses_;
-  std::unique_ptr<std::FILE, CloseFile> file_;
+  command_line::OpenFile file_;
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolated_motion_driver/trajectory/joint_unit.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::trajectory {
@@ -45,7 +46,8 @@ struct JointLimits {
   double max_position = std::numeric_limits<double>::infinity();   ///< of a continuous joint without meaning
   double max_velocity = std::numeric_limits<double>::infinity();   ///< magnitude, > 0
   double max_acceleration = std::numeric_limits<double>::infinity();  ///< magnitude, > 0
-  bool continuous = false;  ///< the position wraps around at 2 pi (URDF type `continuous`)
+  bool continuous = false;             ///< the position wraps around at 2 pi (URDF type `continuous`)
+  JointUnit unit = JointUnit::Radian;  ///< of all the values here; metres: a prismatic joint
   /// How far (rad or m) a position may be beyond its limits, for what is left of a value at the limit after
   /// printing and rounding; of a drive some encoder counts.
   double position_slack = 1e-6;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/joint_unit.h"
 
 namespace interpolated_motion::trajectory {
 
@@ -12,15 +13,18 @@ namespace interpolated_motion::trajectory {
 /// drive within 100 us.
 inline constexpr GoalTime kMinimumStep{1e-4};
 
-/// Largest move (rad or m) of any joint that may be dropped when two points closer than `kMinimumStep` become
-/// one: a fifth of an encoder count at 200 000 counts a turn.
+/// Largest move (rad, see in_unit()) of any joint that may be dropped when two points closer than
+/// `kMinimumStep` become one: a fifth of an encoder count at 200 000 counts a turn.
 inline constexpr double kMergeDistance = 1e-6;
 
-/// A velocity (1/s) below this at the start or the end of a goal counts as rest. Planners leave 1e-7 to 1e-4
-/// there (moveit2 #3561); a drive loses 1e-3 rad/s in one sample of 1 ms at 1 rad/s^2.
+/// A velocity (rad/s, see in_unit()) below this at the start or the end of a goal counts as rest. Planners
+/// leave 1e-7 to 1e-4 there (moveit2 #3561); a drive loses 1e-3 rad/s in one sample of 1 ms at 1 rad/s^2.
 inline constexpr double kRestVelocity = 1e-3;
 
-/// An acceleration (1/s^2) below this at the start or the end of a goal counts as zero.
+/// That, rad/s or m/s.
+inline double rest_velocity(JointUnit unit) { return in_unit(unit, kRestVelocity); }
+
+/// An acceleration (rad/s^2, see in_unit()) below this at the start or the end of a goal counts as zero.
 inline constexpr double kRestAcceleration = 1e-3;
 
 /// What a goal is held against. The vectors have one entry per joint, in the order of `joints`.

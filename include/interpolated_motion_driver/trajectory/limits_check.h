@@ -4,17 +4,12 @@
 #include <string>
 
 #include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/joint_unit.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::trajectory {
-
-/// What a limit or a tolerance is about: in rad or m, per s, per s^2.
-enum class Quantity { Position, Velocity, Acceleration };
-
-/// "position", "velocity" or "acceleration".
-const char* name(Quantity quantity);
 
 /// Where a path leaves its limits: the extreme value of the first piece that does.
 struct LimitViolation {
@@ -39,8 +34,8 @@ std::optional<LimitViolation> find_limit_violation(const Path& path, const Joint
 /// The same of positions alone.
 std::optional<LimitViolation> find_position_violation(const Path& path, const JointLimits& limits);
 
-/// The refusal for it: names joint, value, time, allowed range, whether a point asks for it itself, the curve
-/// between two points does, or it is little enough to come from rounding, and what to do.
-Refusal limit_refusal(const std::string& joint, const LimitViolation& violation);
+/// The refusal for it: names joint, value in its unit, time, allowed range, whether a point asks for it
+/// itself, the curve between two points does, or it is little enough to come from rounding, and what to do.
+Refusal limit_refusal(const std::string& joint, JointUnit unit, const LimitViolation& violation);
 
 }  // namespace interpolated_motion::trajectory

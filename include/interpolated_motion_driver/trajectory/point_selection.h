@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "interpolated_motion_driver/trajectory/goal.h"
+#include "interpolated_motion_driver/trajectory/goal_rules.h"
 #include "interpolated_motion_driver/units/expected.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
@@ -29,9 +30,11 @@ Refusal all_points_past(std::size_t count, GoalTime late, const std::string& sen
 
 /// Indices of the points from `first` on that a path can go through: of points closer than `kMinimumStep`
 /// (planners end with steps of nanoseconds: tesseract #381, moveit #3583) one is kept, the last point always
-/// and else the earlier, if no joint moves more than `kMergeDistance` between them. Refused (InvalidGoal) if
-/// one does, naming points, joint and distance. At least one index is returned. `goal` must be well formed
+/// and else the earlier, if no joint moves more than `kMergeDistance`, in its unit, between them. Refused
+/// (InvalidGoal) if one does, naming points, joint and distance. At least one index is returned. `goal` must
+/// be well formed
 /// (`validate_goal`) and `first` one of its points.
-Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, std::size_t first);
+Expected<std::vector<std::size_t>, Refusal> merge_near_points(const Goal& goal, const GoalRules& rules,
+                                                              std::size_t first);
 
 }  // namespace interpolated_motion::trajectory

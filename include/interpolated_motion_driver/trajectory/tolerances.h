@@ -28,10 +28,11 @@ struct Tolerances {
 };
 
 /// Tolerances of the parameters `constraints/<joint>/trajectory` and `/goal` (one entry per joint),
-/// `constraints/stopped_velocity_tolerance` and `constraints/goal_time`. Throws std::invalid_argument, naming
-/// the parameter, if the vectors differ in length or a value is negative or not finite.
+/// `constraints/stopped_velocity_tolerance` (one entry per joint as well) and `constraints/goal_time`. Throws
+/// std::invalid_argument, naming the parameter, if the vectors differ in length or a value is negative or not
+/// finite.
 Tolerances default_tolerances(const std::vector<double>& trajectory, const std::vector<double>& goal,
-                              double stopped_velocity_tolerance, double goal_time);
+                              const std::vector<double>& stopped_velocity, double goal_time);
 
 /// `defaults` overridden by what `goal` says: a positive value sets a tolerance, 0 keeps it, a negative one
 /// erases it (as control_msgs/FollowJointTrajectory defines). Of several entries for one joint each is
@@ -55,10 +56,13 @@ std::optional<ToleranceViolation> find_tolerance_violation(const std::vector<Sta
                                                            const std::vector<State>& desired,
                                                            const std::vector<State>& actual);
 
-/// PathToleranceViolated, "<joint> path error <position error, %f>" and a sentence of our own.
-Refusal path_tolerance_violated(const std::string& joint, const ToleranceViolation& violation);
+/// PathToleranceViolated, "<joint> path error <position error, %f>" and a sentence of our own. `unit`: of the
+/// joint.
+Refusal path_tolerance_violated(const std::string& joint, JointUnit unit,
+                                const ToleranceViolation& violation);
 
 /// GoalToleranceViolated, "<joint> goal error <position error, %f>" and a sentence of our own.
-Refusal goal_tolerance_violated(const std::string& joint, const ToleranceViolation& violation);
+Refusal goal_tolerance_violated(const std::string& joint, JointUnit unit,
+                                const ToleranceViolation& violation);
 
 }  // namespace interpolated_motion::trajectory

@@ -45,10 +45,10 @@ Answer CommandInterpreter::obey_immediate(const CommandInfo& info, const Packet&
 Answer CommandInterpreter::settled(const Answer& answer) {
   switch (answer.kind()) {
     case Answer::Kind::BadValue:
-      if (parameters_.bad_values == BadValueReply::Nak) return Answer::nak(NakCode::BadFormat);
+      if (parameters_.replies.bad_values == BadValueReply::Nak) return Answer::nak(NakCode::BadFormat);
       break;
     case Answer::Kind::CannotStart:
-      if (parameters_.disabled_start == DisabledStartReply::Busy) return Answer::nak(NakCode::Busy);
+      if (parameters_.replies.disabled_start == DisabledStartReply::Busy) return Answer::nak(NakCode::Busy);
       break;
     case Answer::Kind::CommandError:
       break;

@@ -24,7 +24,7 @@ std::int32_t words(std::int64_t high, std::int64_t low) {
 }
 
 bool is_of_segment(std::int64_t number) {
-  return number == kSegmentTime || (number >= kProfilePosition && number <= kProfileOffset);
+  return number == kSegmentTime || (number >= kProfilePosition && number <= kProfileDeceleration);
 }
 
 }  // namespace
@@ -55,8 +55,10 @@ std::int32_t DataRegisters::velocity() const {
 }
 
 bool DataRegisters::write(std::int64_t number, std::int32_t value) {
-  if (is_of_segment(number) && motion_.interpolating()) return false;
+  const bool in_use = is_of_segment(number) && motion_.interpolating();
+  if (in_use && segment_writes_ == SegmentWriteReply::CommandError) return false;
   registers_.set(number, value);
+  if (in_use) motion_.follow_registers();
   return true;
 }
 

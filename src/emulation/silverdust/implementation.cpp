@@ -23,7 +23,7 @@ SilverDust::Implementation::Implementation(transport::VirtualSerialLine& line,
       axis_(parameters_.plant),
       motion_(parameters_, register_file_, queue_, polling_, limits_),
       electronics_(parameters_, polling_, motion_, program_),
-      registers_(register_file_, motion_, axis_, limits_),
+      registers_(parameters_, register_file_, motion_, axis_, limits_),
       program_target_(registers_, motion_, electronics_, polling_),
       interpreter_(parameters_, polling_, motion_, program_, command_chapters()) {
   restart(now, parameters_.awake_at_start ? now : now + parameters_.boot_time);

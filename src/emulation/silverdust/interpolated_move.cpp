@@ -32,9 +32,9 @@ void InterpolatedMove::tick() {
   if (phase_ == Phase::Starting) return load();
   profile_.tick();
   if (phase_ == Phase::Running) {
-    const std::int32_t left = registers_.get(kSegmentTime) - 1;
+    const std::int32_t left = std::max(registers_.get(kSegmentTime), 1) - 1;
     registers_.set(kSegmentTime, left);
-    if (left == 0) load();
+    if (left <= 0) load();
   } else if (phase_ == Phase::LastTick) {
     profile_.brake(0);
     phase_ = Phase::Idle;
@@ -84,8 +84,23 @@ void InterpolatedMove::execute(const VelocitySegment& segment) {
   registers_.set(kProfileAcceleration, segment.acceleration);
   registers_.set(kProfileVelocity, segment.velocity);
   registers_.set(kProfileDeceleration, segment.acceleration);
-  profile_.move_to(segment.position, profile_.scale().step(segment.acceleration, full_scale_),
-                   segment.velocity);
+  aim();
+}
+
+void InterpolatedMove::follow_registers() {
+  if (phase_ == Phase::Running || phase_ == Phase::LastTick) aim();
+}
+
+// Registers 20..23 are what the profile generator goes by.
+void InterpolatedMove::aim() {
+  const std::int64_t step = step_of(kProfileAcceleration);
+  const std::int64_t braking = step_of(kProfileDeceleration);
+  profile_.move_to(registers_.get(kProfilePosition), {step, braking > 0 ? braking : step},
+                   std::max(registers_.get(kProfileVelocity), 0));
+}
+
+std::int64_t InterpolatedMove::step_of(std::int64_t number) const {
+  return profile_.scale().step(std::max(registers_.get(number), 0), full_scale_);
 }
 
 void InterpolatedMove::stop() {
@@ -99,9 +114,6 @@ std::int64_t InterpolatedMove::step() const {
   return acceleration > 0 ? profile_.scale().step(acceleration, full_scale_) : default_step();
 }
 
-std::int64_t InterpolatedMove::default_step() const {
-  const std::int32_t deceleration = std::max(registers_.get(kDefaultDeceleration), 0);
-  return profile_.scale().step(deceleration, full_scale_);
-}
+std::int64_t InterpolatedMove::default_step() const { return step_of(kDefaultDeceleration); }
 
 }  // namespace interpolated_motion::emulation

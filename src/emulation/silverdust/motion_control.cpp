@@ -18,7 +18,7 @@ void MotionControl::restart() {
 
 void MotionControl::move_to(std::int32_t goal, std::int64_t acceleration, std::int64_t velocity) {
   step_ = profile_step(acceleration);
-  profile_.move_to(goal, step_, velocity);
+  profile_.move_to(goal, {step_, step_}, velocity);
   motion_ = Motion::Profile;
 }
 

@@ -70,10 +70,11 @@ void ProfileGenerator::place(std::int64_t counts) {
   command_ = Command::Stand;
 }
 
-void ProfileGenerator::move_to(std::int32_t position, std::int64_t step, std::int64_t velocity) {
+void ProfileGenerator::move_to(std::int32_t position, const Ramps& ramps, std::int64_t velocity) {
   command_ = Command::MoveTo;
   goal_ = position;
-  step_ = step;
+  step_ = ramps.up;
+  braking_ = ramps.down;
   speed_ = scale_.velocity(velocity);
 }
 
@@ -140,7 +141,7 @@ std::int64_t ProfileGenerator::next_velocity(std::int64_t ahead) {
   if (step_ == 0) return velocity_;
   const std::int64_t rest = remaining() - ahead;
   if (rest == 0 && velocity_ == 0) return 0;
-  if (std::abs(rest) < 2 * scale_.advance && std::abs(velocity_) <= step_) {
+  if (std::abs(rest) < 2 * scale_.advance && std::abs(velocity_) <= braking_) {
     move_by(rest);
     return 0;
   }
@@ -159,17 +160,17 @@ std::int64_t ProfileGenerator::remaining() const {
 }
 
 std::int64_t ProfileGenerator::ramp(std::int64_t speed) const {
-  return speed < speed_ ? std::min(speed + step_, speed_) : std::max(speed - step_, speed_);
+  return speed < speed_ ? std::min(speed + step_, speed_) : std::max(speed - braking_, speed_);
 }
 
 // Speed of the next tick, in the direction of the commanded position, which is `distance` away.
 std::int64_t ProfileGenerator::approach(std::int64_t distance, std::int64_t speed) const {
-  if (speed < 0) return std::min<std::int64_t>(speed + step_, 0);
+  if (speed < 0) return std::min<std::int64_t>(speed + braking_, 0);
   const std::int64_t reach = distance / (2 * scale_.advance);
   std::int64_t high = ramp(speed);
   if (stopping_distance(high) <= reach) return high;
-  std::int64_t low = std::max<std::int64_t>(speed - 2 * step_, 0);
-  if (stopping_distance(low) > reach) return std::max<std::int64_t>(speed - step_, 0);
+  std::int64_t low = std::max<std::int64_t>(speed - 2 * braking_, 0);
+  if (stopping_distance(low) > reach) return std::max<std::int64_t>(speed - braking_, 0);
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;
     (stopping_distance(middle) <= reach ? low : high) = middle;
@@ -178,11 +179,11 @@ std::int64_t ProfileGenerator::approach(std::int64_t distance, std::int64_t spee
 }
 
 // Distance of one tick at `speed` and of all ticks of braking after it, in fractions times ticks:
-// speed + (speed - step) + (speed - 2 step) + ... while positive.
+// speed + (speed - braking) + (speed - 2 braking) + ... while positive.
 std::int64_t ProfileGenerator::stopping_distance(std::int64_t speed) const {
-  const std::int64_t ticks = speed / step_;
+  const std::int64_t ticks = speed / braking_;
   if (ticks > kLongestBraking) return kFar;
-  return speed * (ticks + 1) - step_ * (ticks * (ticks + 1) / 2);
+  return speed * (ticks + 1) - braking_ * (ticks * (ticks + 1) / 2);
 }
 
 }  // namespace interpolated_motion::emulation

@@ -57,11 +57,14 @@ void parse_emulated_unknowns(ParameterReader& reader, SilverDustParameters& emul
   emulated.acceleration_rounding =
       reader.choice("acceleration_rounding", emulated.acceleration_rounding,
                     {{"truncated", AccelerationRounding::Truncated}, {"exact", AccelerationRounding::Exact}});
-  emulated.bad_values =
-      reader.choice("bad_values", emulated.bad_values,
+  emulated.replies.bad_values =
+      reader.choice("bad_values", emulated.replies.bad_values,
                     {{"nak", BadValueReply::Nak}, {"command_error", BadValueReply::CommandError}});
-  emulated.disabled_start = reader.choice(
-      "disabled_start", emulated.disabled_start,
+  emulated.replies.segment_writes = reader.choice(
+      "segment_writes", emulated.replies.segment_writes,
+      {{"moves", SegmentWriteReply::Moves}, {"command_error", SegmentWriteReply::CommandError}});
+  emulated.replies.disabled_start = reader.choice(
+      "disabled_start", emulated.replies.disabled_start,
       {{"command_error", DisabledStartReply::CommandError}, {"busy", DisabledStartReply::Busy}});
 }
 
@@ -108,8 +111,9 @@ void parse_queue(ParameterReader& reader, SilverlodeSettings& silverlode) {
 /// Segments are long beside the time between two setpoints; so how far off they are is a matter of the motion
 /// and not of the encoder.
 double default_stream_bound(const DriveConfiguration& drive) {
-  constexpr double kAtTheJoint = 0.02;  // rad
-  return kAtTheJoint * std::abs(drive.transmission.counts_per_radian());
+  constexpr double kAtTheJoint = 0.02;  // rad, or what in_unit() makes of it
+  return trajectory::in_unit(drive.limits.unit, kAtTheJoint) *
+         std::abs(drive.transmission.counts_per_radian());
 }
 
 }  // namespace

@@ -152,6 +152,8 @@ TEST(InterpolatedPositionMode, UnderflowIsAFaultWithQuickStopRamp) {
   EXPECT_EQ(host.status(), 0x0340U) << "a reset without a fault does nothing";
 }
 
+// "At least two data records have to be in the FIFO": with 600 qc reached one is left, and at the next
+// sample, at 620, the drive brakes.
 TEST(InterpolatedPositionMode, UnderflowInMotionStopsOnTheRamp) {
   WireHost host(stiff());
   host.prepare();
@@ -161,8 +163,23 @@ TEST(InterpolatedPositionMode, UnderflowInMotionStopsOnTheRamp) {
   host.control(0x1F);
   host.run(ms(300));
   EXPECT_EQ(host.count(0x081), 1U);
-  EXPECT_EQ(host.drive->position(), 2800);
+  EXPECT_EQ(host.drive->position(), 820);
   EXPECT_EQ(host.status(), 0x0308U);
+}
+
+// Three records and none that ends the mode: the third is not played to its end, at 3200.
+TEST(InterpolatedPositionMode, OneRecordAloneIsAnUnderflow) {
+  WireHost host(stiff());
+  host.prepare();
+  ASSERT_EQ(host.write(0x6085, 0, 30000, 4), 0U);
+  trapezoid(host);
+  host.control(0x1F);
+  host.run(ms(150));
+  EXPECT_EQ(host.count(0x081), 0U);
+  host.run(ms(100));
+  EXPECT_EQ(host.count(0x081), 1U);
+  // After 1 ms of the third record: 2600 + 20 - 1/6 qc at 20 - 1/3 qc/ms, and (19 2/3)^2 / 2 to brake.
+  EXPECT_NEAR(host.drive->position(), 2619.8 + 193.4, 1.0);
 }
 
 TEST(InterpolatedPositionMode, OverflowWhileActiveIsAFault) {

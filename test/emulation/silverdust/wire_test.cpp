@@ -63,7 +63,7 @@ TEST(SilverDustWire, ArgumentsOfImsCanBePrescribed) {
 
 TEST(SilverDustWire, BadValuesCanBeAcknowledged) {
   SilverDustParameters parameters;
-  parameters.bad_values = BadValueReply::CommandError;
+  parameters.replies.bad_values = BadValueReply::CommandError;
   SerialHost host(parameters);
   EXPECT_EQ(host.command("25 -1 0 0 0"), "* 10");
   EXPECT_EQ(host.command("0"), "# 10 0000 1000");
@@ -195,7 +195,7 @@ TEST(SilverDustWire, HaltDisablesTheDriver) {
 
 TEST(SilverDustWire, ADisabledDriveCanAnswerBusy) {
   SilverDustParameters parameters;
-  parameters.disabled_start = DisabledStartReply::Busy;
+  parameters.replies.disabled_start = DisabledStartReply::Busy;
   SerialHost host(parameters);
   host.expect_ack("228");
   EXPECT_EQ(host.command("253 0 0"), "! 10 00FD 0002");

@@ -39,11 +39,13 @@ enum class LeadingTerminator {
   Fault,     ///< underflow error
 };
 
-/// When "at least two records have to be in the FIFO" (Doc 4.3.6.1) is tested.
+/// How "in the Interpolation active state at least two data records have to be in the FIFO" (Doc 4.3.6.1) is
+/// meant.
 enum class UnderflowTest {
-  AtSegmentEnd,  ///< when a record has been reached and, counting it, fewer than two are left and none ends
-                 ///< the mode
-  EverySample,   ///< at each sample; a queued record with time 0 lifts the rule
+  EverySample,   ///< as it is written: at each sample; a queued record with time 0, which ends the mode
+                 ///< without an error, lifts the rule
+  AtSegmentEnd,  ///< leniently: when a record has been reached and, counting it, fewer than two are left and
+                 ///< none ends the mode, so that all records are played first
 };
 
 /// When a record leaves the buffer, as 0x60C4:2 and :4 count it.
@@ -132,7 +134,7 @@ struct EposParameters {
   /// Each answers a question that Doc leaves open; the answers are explained at their types.
   InactiveOverflow overflow_while_inactive = InactiveOverflow::Fault;
   LeadingTerminator leading_terminator = LeadingTerminator::EndsMode;
-  UnderflowTest underflow_test = UnderflowTest::AtSegmentEnd;
+  UnderflowTest underflow_test = UnderflowTest::EverySample;
   RecordRelease record_release = RecordRelease::AtSegmentEnd;
   ShortStart short_start = ShortStart::Fault;
   PositionLimitCheck position_limit_check = PositionLimitCheck::RunTime;

@@ -5,6 +5,7 @@
 #include "interpolated_motion_driver/emulation/silverdust/axis.h"
 #include "interpolated_motion_driver/emulation/silverdust/error_limits.h"
 #include "interpolated_motion_driver/emulation/silverdust/motion_control.h"
+#include "interpolated_motion_driver/emulation/silverdust/parameters.h"
 #include "interpolated_motion_driver/emulation/silverdust/registers.h"
 
 namespace interpolated_motion::emulation {
@@ -14,23 +15,29 @@ namespace interpolated_motion::emulation {
 class DataRegisters {
  public:
   /// Shows what it is given, which must outlive it.
-  DataRegisters(RegisterFile& registers, const MotionControl& motion, const LaggingAxis& axis,
-                const ErrorLimits& limits)
-      : registers_(registers), motion_(motion), axis_(axis), limits_(limits) {}
+  DataRegisters(const SilverDustParameters& parameters, RegisterFile& registers, MotionControl& motion,
+                const LaggingAxis& axis, const ErrorLimits& limits)
+      : segment_writes_(parameters.replies.segment_writes),
+        registers_(registers),
+        motion_(motion),
+        axis_(axis),
+        limits_(limits) {}
 
   /// Register `number`, which must exist (RegisterFile).
   std::int32_t read(std::int64_t number) const;
 
-  /// Writes register `number`, which must be writable (RegisterFile). False, and nothing is written, when an
-  /// IMS operation uses it ("Interpolated Motion": registers 18 and 20..24).
+  /// Writes register `number`, which must be writable (RegisterFile). An IMS operation that uses it
+  /// ("Interpolated Motion": registers 18 and 20..23) goes on with the new value from its next tick on; or
+  /// false, and nothing is written, as `segment_writes` says.
   bool write(std::int64_t number, std::int32_t value);
 
  private:
   std::int32_t position_error() const;
   std::int32_t velocity() const;
 
+  const SegmentWriteReply segment_writes_;
   RegisterFile& registers_;
-  const MotionControl& motion_;
+  MotionControl& motion_;
   const LaggingAxis& axis_;
   const ErrorLimits& limits_;
 };

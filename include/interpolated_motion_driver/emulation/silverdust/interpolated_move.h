@@ -23,6 +23,10 @@ struct InterpolationCounters {
 /// more tick. When there is no fresh segment, register 19 (in the acceleration scale of IMS; 0 or less: at
 /// once) brings the axis to rest, which ends the operation too.
 ///
+/// The operation works on those registers: what is written to them meanwhile is what it goes on with, until
+/// the next segment. A time of 0 or less is over in the next tick, a deceleration of 0 or less is the
+/// acceleration.
+///
 /// The document says that the operation ends "instantly", not what becomes of a speed that is left: here the
 /// target stands at once.
 class InterpolatedMove {
@@ -34,6 +38,9 @@ class InterpolatedMove {
   /// The operation begins in the next tick, which loads the first segment; the first step of the profile is
   /// made in the tick after that.
   void start();
+
+  /// Somebody has written registers 18 or 20..23, which the segment that is executed has been copied to.
+  void follow_registers();
 
   /// Something else has taken over the profile generator.
   void abandon() { phase_ = Phase::Idle; }
@@ -62,6 +69,8 @@ class InterpolatedMove {
   bool fetch_queued(VelocitySegment& segment);
   bool fetch_registers(std::int64_t first, VelocitySegment& segment);
   void execute(const VelocitySegment& segment);
+  void aim();
+  std::int64_t step_of(std::int64_t number) const;
   void stop();
   std::int64_t default_step() const;
 

@@ -41,6 +41,9 @@ class MotionControl {
   /// IMS: begins in the next tick.
   void interpolate();
 
+  /// Registers 18 or 20..23 have been written while interpolating().
+  void follow_registers() { interpolation_.follow_registers(); }
+
   /// STP: brakes to rest with `deceleration`, > 0; with 0 as the motion that runs accelerates.
   void stop(std::int64_t deceleration);
 

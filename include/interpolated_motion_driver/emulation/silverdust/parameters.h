@@ -21,6 +21,20 @@ enum class DisabledStartReply {
   Busy,          ///< NAK 2 (device busy)
 };
 
+/// What becomes of a write to a register in which IMS keeps the segment that it executes (18 and 20..23).
+/// Doc: "Any use of these registers while in an IMS operation could cause a program or movement error."
+enum class SegmentWriteReply {
+  Moves,         ///< the operation goes on with what has been written: a movement error
+  CommandError,  ///< ACK, nothing is done, and bit 12 of the polling status word: a program error
+};
+
+/// What the documents leave open, each answer is explained at its type.
+struct SilverDustReplies {
+  BadValueReply bad_values = BadValueReply::Nak;
+  DisabledStartReply disabled_start = DisabledStartReply::CommandError;
+  SegmentWriteReply segment_writes = SegmentWriteReply::Moves;
+};
+
 /// By which velocity the target advances in a servo tick in which the profile generator's velocity ramps. The
 /// worked example of Doc ends at the same count with all three and reaches its inner marks with MeanVelocity;
 /// the others are up to half a tick of travel before or behind them (8 counts of 72000).
@@ -68,8 +82,7 @@ struct SilverDustParameters {
   HostDuration turnaround = std::chrono::milliseconds(1);  ///< from a CR to the answer's first bit, without
                                                            ///< the ACK delay; >= 0
   std::uint16_t por_echo = 0;  ///< command number in the answer to POR; the vendor's example shows 0000
-  BadValueReply bad_values = BadValueReply::Nak;
-  DisabledStartReply disabled_start = DisabledStartReply::CommandError;
+  SilverDustReplies replies;   ///< to what cannot be done, or should not
   bool done_bit_of_short_commands = true;  ///< bit 13 of the polling status word is set by each program class
                                            ///< command that is done, not by motions only
   bool immediate_done_bit = false;  ///< bit 15 is set by immediate commands other than POL, POR and CPL

@@ -50,10 +50,16 @@ class ProfileGenerator {
   /// Puts the target at `counts`, at rest.
   void place(std::int64_t counts);
 
+  /// Changes of speed, fractions a tick.
+  struct Ramps {
+    std::int64_t up;    ///< 0: none, neither up nor down
+    std::int64_t down;  ///< > 0 unless `up` is 0
+  };
+
   /// Goes to `position` (counts, 32 bit: the nearer way round decides the direction) with speed up to
-  /// `velocity` (units, a magnitude) and `step` fractions a tick. The present speed is kept. Step 0 goes on
-  /// at the present velocity, whatever the position.
-  void move_to(std::int32_t position, std::int64_t step, std::int64_t velocity);
+  /// `velocity` (units, a magnitude). The present speed is kept. Without ramps it goes on at the present
+  /// velocity, whatever the position.
+  void move_to(std::int32_t position, const Ramps& ramps, std::int64_t velocity);
 
   /// Ramps to `velocity` (units, signed) and keeps it.
   void run_at(std::int64_t velocity, std::int64_t step);
@@ -89,8 +95,9 @@ class ProfileGenerator {
   Integration integration_;
   Command command_ = Command::Stand;
   std::int32_t goal_ = 0;
-  std::int64_t step_ = 0;
-  std::int64_t speed_ = 0;  ///< commanded, fractions; signed for RunAt
+  std::int64_t step_ = 0;     ///< up; of RunAt in both directions
+  std::int64_t braking_ = 0;  ///< down, of MoveTo
+  std::int64_t speed_ = 0;    ///< commanded, fractions; signed for RunAt
   std::int64_t counts_ = 0;
   std::int64_t fraction_ = 0;  ///< halves of 1/`scale_.count`: 0..2 * scale_.count - 1
   std::int64_t velocity_ = 0;
