@@ -154,8 +154,8 @@ BusWatch ImsPlayer::bus_watch() const {
   constexpr double kSmallest = 1e-9;  // so that what goes with the start command counts
   const silverlode::LineMaster& line = stage_.line();
   const double filling = ims_filling_time(parameters_, *delivery_, line);
-  // Where segments are as long as the line needs at its worst, questions are in that.
-  if (delivery_->shortest_segment() > 0.0)
+  // With a single block of registers every segment is as long as the line needs with a question.
+  if (delivery_->shortest_segment() > 0.0 && delivery_->capacity() == 1)
     return {delivery_->record_time(), 0.0, 0.0, 0.0, GoalTime{filling + kSmallest}};
   return {delivery_->record_time(), seconds(look_time(line)), seconds(longest_look_time(line)),
           seconds(stage_.pace().overdue()), GoalTime{filling + kSmallest}};
