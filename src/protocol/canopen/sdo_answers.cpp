@@ -1,11 +1,7 @@
 #include "interpolated_motion_driver/protocol/canopen/sdo_answers.h"
 
-#include "interpolated_motion_driver/protocol/canopen/object.h"
-
 namespace interpolated_motion::canopen {
 namespace {
-
-std::uint32_t object_of(const Frame& frame) { return get_le<std::uint32_t>(frame.data.data()) >> 8; }
 
 unsigned specifier(const Frame& frame) { return frame.data[0] >> 5; }
 
@@ -14,29 +10,23 @@ bool begins(const Frame& frame) {
   return frame.length == 8 && (specifier(frame) == 1 || specifier(frame) == 2);
 }
 
-/// Upload, download: initiate answers.
+/// Upload, download: initiate answers, and aborts.
 bool answers_begin(const Frame& frame) {
-  return frame.length == 8 && (specifier(frame) == 2 || specifier(frame) == 3);
+  return frame.length == 8 && specifier(frame) >= 2 && specifier(frame) <= 4;
 }
 
 }  // namespace
 
 void SdoAnswers::on_request(const Frame& frame) {
-  if (!begins(frame)) return;
-  const std::uint32_t object = object_of(frame);
-  if (object != last_[0].object) {
-    last_[1] = last_[0];
-    last_[0] = {object, 0, 0};
-  }
-  ++last_[0].requests;
+  if (begins(frame)) ++open_;
 }
 
 void SdoAnswers::on_answer(const Frame& frame) {
   if (!answers_begin(frame)) return;
-  for (Exchange& exchange : last_) {
-    if (exchange.object != object_of(frame)) continue;
-    if (++exchange.answers > exchange.requests) ++surplus_;
-    return;
+  if (open_ > 0) {
+    --open_;
+  } else if (specifier(frame) != 4) {
+    ++surplus_;
   }
 }
 

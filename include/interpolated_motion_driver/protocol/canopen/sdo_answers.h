@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "interpolated_motion_driver/protocol/canopen/frame.h"
@@ -8,7 +7,8 @@
 namespace interpolated_motion::canopen {
 
 /// Counts the answers to the SDO requests of one node id (CiA 301, 7.2.4.3): more answers than requests come
-/// from more than one device. Looks at the beginning of transfers, which names its object.
+/// from more than one device. An answer that has been missed may come late, so it is one to be expected.
+/// Looks at the beginning of transfers.
 class SdoAnswers {
  public:
   /// A request to the node is about to go out, or has been sent by another master.
@@ -21,13 +21,7 @@ class SdoAnswers {
   std::uint64_t surplus() const { return surplus_; }
 
  private:
-  struct Exchange {
-    std::uint32_t object = 0;  ///< index and sub-index, as on the wire; 0: none
-    int requests = 0;
-    int answers = 0;
-  };
-
-  std::array<Exchange, 2> last_{};  ///< the newest first: an answer may come when the next has been asked for
+  int open_ = 0;  ///< requests without an answer so far: it may be late
   std::uint64_t surplus_ = 0;
 };
 
