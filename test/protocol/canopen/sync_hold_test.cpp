@@ -14,7 +14,8 @@ using std::chrono::milliseconds;
 MasterParameters parameters() {
   MasterParameters p;
   p.sync_period = milliseconds(10);
-  p.heartbeat_timeout = milliseconds(400);  // so a SYNC waits for the last one by 100 ms at most, for its answers by three periods
+  p.heartbeat_timeout = milliseconds(
+      400);  // so a SYNC waits for the last one by 100 ms at most, for its answers by three periods
   return p;
 }
 
