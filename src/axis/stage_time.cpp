@@ -14,6 +14,7 @@ HostDuration StageTime::poll(HostTime now) {
   const HostDuration away = passed > kHostStall ? passed : HostDuration::zero();
   const bool within = polled_ >= since_;
   polled_ = now;
+  if (away > HostDuration::zero()) returned_ = now;
   absent_ += away;
   if (!within) return HostDuration::zero();
   away_ += away;

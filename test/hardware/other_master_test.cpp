@@ -99,12 +99,14 @@ TEST_P(OtherMaster, ThatFallsSilentAtTheStartIsWaitedFor) {
   EXPECT_TRUE(scenario->run_until_state(GroupState::Idle)) << scenario->snapshot().fault;
 }
 
+// TIME (0x100) is not among them: an EPOS sets the clock by it that it plays its records with.
 TEST_P(OtherMaster, OfOtherNodesIsNone) {
   move(GetParam().make(""));
   for (const char* frame : {"189#3702", "709#05", "609#4041600000000000", "209#00", "089#0000000000000000",
-                            "100#000000000000", "7E5#0400000000000000", "781#00", "00012345#01"})
+                            "7E5#0400000000000000", "781#00", "00012345#01"})
     send(frame);
-  EXPECT_EQ(scenario->result_of(goal).outcome, GoalOutcome::Succeeded);
+  const auto result = scenario->result_of(goal);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
 }
 
 TEST_P(OtherMaster, CanBeAllowed) {

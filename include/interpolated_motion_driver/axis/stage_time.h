@@ -12,7 +12,8 @@ class StageTime {
   /// The axis is polled. Returns for how long the host was away before, as far as that was within the stage
   /// or phase; zero mostly.
   HostDuration poll(HostTime now);
-  HostTime polled() const { return polled_; }  ///< of the latest poll()
+  HostTime polled() const { return polled_; }      ///< of the latest poll()
+  HostTime returned() const { return returned_; }  ///< when the host was back after it had been away last
 
   /// A stage, or a phase within it, begins.
   void begin(HostTime now);
@@ -32,6 +33,7 @@ class StageTime {
   HostTime since_{};
   HostDuration away_{};  ///< of the host, since then
   HostTime polled_{};
+  HostTime returned_{};
   HostDuration absent_{};            ///< of the host, in all
   HostDuration absent_at_report_{};  ///< the same when the last position came
 };

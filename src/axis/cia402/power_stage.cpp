@@ -295,7 +295,8 @@ void Cia402PowerStage::watch_reports(HostTime now) {
   if (!configured_ || !due) return;
   const HostTime known = std::min(feedback_.time, report_.status_time);
   const HostDuration patience = std::max(settings_.feedback_timeout, settings_.heartbeat_timeout);
-  if (time().silence(now, known) <= patience) return;
+  // Nothing was asked of the drives while the host was away, so nothing has come.
+  if (now - std::max(known, time().returned()) <= patience) return;
   configured_ = false;
   fail(fmt::format("no {} has come from the drive for {:.2f} s, though its heartbeat comes: its PDOs have "
                    "been changed or switched off",

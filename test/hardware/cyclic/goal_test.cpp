@@ -142,9 +142,9 @@ TEST(CyclicGroup, CanLoadBesideThePvtRunOfTheSameGoal) {
   const double cyclic = peak_load(six_axis_cyclic());
   const double pvt = peak_load(six_axis());
   std::cout << "peak CAN load: cyclic at 10 ms " << 100.0 * cyclic << " %, PVT " << 100.0 * pvt << " %\n";
-  // Each 10 ms: SYNC, and for six drives frames of 4, 7 and 8 bytes, each at least as long as without
+  // Each 10 ms: SYNC, and for six drives frames of 8, 7 and 8 bytes, each at least as long as without
   // stuffing.
-  const double least = (47 + 6 * (3 * 47 + 8 * (4 + 7 + 8))) / 10e3;
+  const double least = (47 + 6 * (3 * 47 + 8 * (8 + 7 + 8))) / 10e3;
   EXPECT_GE(cyclic, least);
   EXPECT_LE(cyclic, 1.25 * least);
 }
