@@ -1,3 +1,5 @@
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "interpolated_motion_driver/protocol/canopen/master.h"
@@ -151,11 +153,11 @@ TEST(AnswersThatNobodyAskedFor, AreNotThoseToASecondTry) {
   Master master("can0");
   NodeLink& node = master.add_node(3);
   const Frame answer = make_frame(0x583, {0x4B, 0x41, 0x60, 0, 0x37, 2, 0, 0});
-  for (int i = 0; i < 2; ++i) {
-    node.sdo().start_upload({0x6041, 0}, at_ms(1000 * i));
-    drain(master, at_ms(1000 * i));
-    master.poll(at_ms(1000 * i + 900));
-    drain(master, at_ms(1000 * i + 900));
+  for (const std::int64_t asked : {0, 1000}) {
+    node.sdo().start_upload({0x6041, 0}, at_ms(asked));
+    drain(master, at_ms(asked));
+    master.poll(at_ms(asked + 900));
+    drain(master, at_ms(asked + 900));
   }
   master.on_frame(foreign(make_frame(0x603, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}), at_ms(1950)));
   for (int i = 0; i < 3; ++i) master.on_frame(foreign(answer, at_ms(1960 + i)));
