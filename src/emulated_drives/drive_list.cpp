@@ -163,7 +163,7 @@ void set_clock_errors(const std::vector<double>& errors, std::vector<ServedBus>&
 std::vector<ServedBus> make_drive_list(const Options& options) {
   auto list = options.config_file.empty() ? drives_as_delivered(options) : drives_of_file(options);
   for (ServedBus& served : list) {
-    if (options.bitrate != 0) served.bus.bitrate = options.bitrate;
+    if (options.bitrate != 0) served.bus.bitrate = static_cast<std::uint32_t>(options.bitrate);
     if (options.baud != 0) served.bus.serial.line.baud = static_cast<std::uint32_t>(options.baud);
   }
   set_clock_errors(options.clock_errors, list);

@@ -62,6 +62,7 @@ trajectory::Goal sweep_goal(SweepGoal kind, int joints) {
     const double t = shape.interval * i;
     const double window = std::pow(std::sin(kPi * t / shape.duration), 2);
     std::vector<double> position;
+    position.reserve(static_cast<std::size_t>(joints));
     for (int joint = 0; joint < joints; ++joint)
       position.push_back(shape.amplitude * window * std::sin(2.0 * kPi * shape.hertz * t + 0.7 * joint));
     times.push_back(t);
@@ -90,6 +91,7 @@ std::vector<int> sweep_sample(int size, int usual) {
   const char* text = std::getenv("IMD_PROPERTY_CASES");
   const int count = std::clamp(text == nullptr ? usual : std::atoi(text), 1, size);
   std::vector<int> sample;
+  sample.reserve(static_cast<std::size_t>(count));
   int step = static_cast<int>(0.381966 * size);  // of the golden section: well mixed however many are taken
   while (std::gcd(step, size) != 1) ++step;
   for (int i = 0; i < count; ++i)
