@@ -157,17 +157,21 @@ std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& trans
 
 Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
                                                          const SetpointEncoding& encoding) {
+  return certify_setpoints_from(path.start_time() - kCipHistory * encoding.period, path, encoding);
+}
+
+Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, const trajectory::Path& path,
+                                                              const SetpointEncoding& encoding) {
   validate(encoding);
   const GoalTime history = kCipHistory * encoding.period;
   SetpointCertificate worst;
   for (int phase = 0; phase < kSetpointPhases; ++phase) {
     const GoalTime shift = encoding.period * phase / kSetpointPhases;
-    Execution execution(path, encoding, path.start_time() - history + shift);
+    Execution execution(path, encoding, first + shift);
     while (execution.next() < path.end_time() + history) {
       if (!execution.advance(worst)) return beyond_range(encoding, execution.next());
     }
-    worst.acceleration = std::max(worst.acceleration,
-                                  demand_acceleration(path, path.start_time() - history + shift, encoding));
+    worst.acceleration = std::max(worst.acceleration, demand_acceleration(path, first + shift, encoding));
   }
   if (worst.worst_deviation > encoding.bound_counts) return beyond_bound(encoding, worst);
   if (encoding.order > 1 && worst.acceleration > encoding.max_acceleration)

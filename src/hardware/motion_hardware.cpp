@@ -97,15 +97,15 @@ class MotionHardware::Implementation {
   void step(HostTime time);
   void take_notes();
   void follow_group();
-  void follow_stream();
-  void begin_audit();
+  void follow_course();
   void log_state_change(motion::GroupState before);
   void log_unexpected_traffic();
 
   std::vector<JointValues> values_;
   HostDuration write_period_;
   HostTime commands_due_ = HostTime::min();
-  std::uint64_t stream_revision_ = 0;
+  std::uint64_t seen_motion_ = 0;
+  std::uint64_t seen_revision_ = 0;
   motion::GroupState seen_state_ = motion::GroupState::Starting;
   std::vector<std::uint64_t> unexpected_;
 };
@@ -174,30 +174,27 @@ void MotionHardware::Implementation::take_notes() {
 }
 
 void MotionHardware::Implementation::follow_group() {
-  follow_stream();
+  follow_course();
   const motion::GroupState state = group->state();
   if (state == seen_state_) return;
   const motion::GroupState before = std::exchange(seen_state_, state);
   tap.follow(now, before, *group);
-  if (state == motion::GroupState::Moving) begin_audit();
   if (state == motion::GroupState::Idle || state == motion::GroupState::Stopping ||
       state == motion::GroupState::Fault)
     assembly.end_audits(now);
   log_state_change(before);
 }
 
-void MotionHardware::Implementation::follow_stream() {
-  if (group->stream().revision() == stream_revision_) return;
-  const bool begins = seen_state_ != motion::GroupState::Streaming;
-  stream_revision_ = group->stream().revision();
-  if (begins) return assembly.begin_audits(group->stream().paths(), now);
-  for (std::size_t i = 0; i < values_.size(); ++i) assembly.audits()[i].follow(group->stream().paths()[i]);
-}
-
-void MotionHardware::Implementation::begin_audit() {
-  const motion::ActiveGoal* goal = group->last_goal();
-  assembly.begin_audits(goal->plan.paths, now);
-  for (const auto& link : assembly.links()) link->reset_peak_load();
+void MotionHardware::Implementation::follow_course() {
+  const motion::Course& course = group->course();
+  const bool begins = course.motion() != std::exchange(seen_motion_, course.motion());
+  if (course.revision() == std::exchange(seen_revision_, course.revision())) return;
+  if (begins) {
+    assembly.begin_audits(course.paths(), now);
+    for (const auto& link : assembly.links()) link->reset_peak_load();
+    return;
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) assembly.audits()[i].follow(course.paths()[i]);
 }
 
 void MotionHardware::Implementation::log_state_change(motion::GroupState before) {

@@ -74,6 +74,9 @@ void Group::poll(HostTime now) {
     case GroupState::Streaming:
       poll_streaming(now);
       break;
+    case GroupState::Standing:
+      poll_standing(now);
+      break;
     case GroupState::Stopping:
       poll_stopping(now);
       break;
@@ -92,9 +95,11 @@ void Group::poll(HostTime now) {
 HostTime Group::next_deadline() const {
   HostTime next = kNever;
   for (const axis::Axis* axis : axes_) next = std::min(next, axis->next_deadline());
-  if (state_ == GroupState::Preparing && active_ && all(AxisState::Loaded))
+  if (state_ == GroupState::Preparing && active_ && all_are(axes_, AxisState::Loaded))
     next = std::min(next, active_->start);
   if (state_ == GroupState::Settling) next = std::min(next, settle_deadline());
+  const bool replaced = state_ == GroupState::Settling && pending_;
+  if (replaced || (state_ == GroupState::Standing && all_are(axes_, AxisState::Ready))) return HostTime{};
   return next;
 }
 
@@ -109,19 +114,22 @@ void Group::poll_starting(HostTime now) {
 
 void Group::poll_enabling(HostTime now) {
   if (faulted()) return enter_fault();
-  if (all(AxisState::Ready)) enter_rest_state(now);
+  if (all_are(axes_, AxisState::Ready)) enter_rest_state(now);
 }
 
 void Group::poll_preparing(HostTime now) {
   if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
-  if (all(AxisState::Loaded) && now >= active_->start) start_motion(now);
+  if (all_are(axes_, AxisState::Loaded) && now >= active_->start) start_motion(now);
 }
 
 void Group::poll_moving(HostTime now) {
   if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
   if (!active_->begin_is_set) set_common_begin(now);
   if (auto violation = find_path_violation()) return stop(now, {GoalOutcome::Aborted, *violation});
-  const auto played = [](const axis::Axis* a) { return a->finished() && a->state() == AxisState::Ready; };
+  const auto played = [this, now](const axis::Axis* a) {
+    if (a->finished() && a->state() == AxisState::Ready) return true;
+    return active_->end && a->playback(now) >= *active_->end;
+  };
   if (!std::all_of(axes_.begin(), axes_.end(), played)) return;
   active_->ended = now;
   enter(GroupState::Settling);
@@ -129,11 +137,31 @@ void Group::poll_moving(HostTime now) {
 
 void Group::poll_settling(HostTime now) {
   if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
-  if (!feedback_since(active_->ended)) return;
-  const auto violation = find_goal_violation();
-  if (violation && now < settle_deadline()) return;
-  finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation} : Ending{GoalOutcome::Succeeded, {}});
+  if (pending_) {
+    finish_goal({GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
+  } else {
+    if (!have_reported_since(axes_, active_->ended)) return;
+    const auto violation = find_goal_violation();
+    if (violation && now < settle_deadline()) return;
+    finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation} : Ending{GoalOutcome::Succeeded, {}});
+  }
+  enter(GroupState::Standing);
+  poll_standing(now);
+}
+
+// The drives leave their interpolation by themselves, at the end of their records.
+void Group::poll_standing(HostTime now) {
+  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (all_are(axes_, AxisState::Ready)) rest(now);
+}
+
+void Group::rest(HostTime now) {
   enter_rest_state(now);
+  std::optional<Setpoint> setpoint = std::exchange(waiting_, std::nullopt);
+  if (pending_) return start_pending(now);
+  if (!setpoint || state_ != GroupState::Idle) return;
+  setpoint->time = now;  // as it has waited for the drives, not for its sender
+  open_stream(*setpoint, now);
 }
 
 // Axes with a fault stop by their own reaction or are being stopped; the others have been told to. The group
@@ -156,7 +184,8 @@ void Group::poll_stopping(HostTime now) {
 
 void Group::poll_fault(HostTime now) {
   const bool settled = all_settled(axes_);
-  if (any(AxisState::Ready) || (settled && power_off_ == PowerOff::Wanted)) return start_disabling(now);
+  if (any_is(axes_, AxisState::Ready) || (settled && power_off_ == PowerOff::Wanted))
+    return start_disabling(now);
   if (settled) power_off_ = PowerOff::No;
 }
 
@@ -192,7 +221,7 @@ void Group::enter(GroupState state) {
 }
 
 void Group::enter_rest_state(HostTime now) {
-  enter(all(AxisState::Ready) ? GroupState::Idle : GroupState::Disabled);
+  enter(all_are(axes_, AxisState::Ready) ? GroupState::Idle : GroupState::Disabled);
   in_force_since_ = state_ == GroupState::Idle ? now : kNever;
 }
 
@@ -208,6 +237,7 @@ void Group::signal_all(HostTime now) {
 }
 
 void Group::stop(HostTime now, Ending ending) {
+  waiting_.reset();
   if (active_) ending_ = std::move(ending);
   for (axis::Axis* axis : axes_) {
     if (holds_motion(axis->state())) axis->stop(now);
@@ -269,20 +299,13 @@ void Group::disable(const std::string& why, HostTime now) {
   if (state_ != GroupState::Starting && state_ != GroupState::Fault) enter(GroupState::Stopping);
 }
 
-bool Group::in_motion() const {
-  return state_ == GroupState::Preparing || state_ == GroupState::Moving || state_ == GroupState::Settling ||
-         state_ == GroupState::Streaming;
+/// The drives play the course, or have just done so.
+bool Group::plays_course() const {
+  return state_ == GroupState::Moving || state_ == GroupState::Settling || state_ == GroupState::Streaming ||
+         state_ == GroupState::Standing;
 }
 
-bool Group::all(AxisState state) const {
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [state](const axis::Axis* a) { return a->state() == state; });
-}
-
-bool Group::any(AxisState state) const {
-  return std::any_of(axes_.begin(), axes_.end(),
-                     [state](const axis::Axis* a) { return a->state() == state; });
-}
+bool Group::in_motion() const { return state_ == GroupState::Preparing || plays_course(); }
 
 const axis::Axis* Group::faulted() const {
   const auto it =

@@ -1,34 +1,12 @@
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "interpolated_motion_driver/motion/bus_budget.h"
+#include "interpolated_motion_driver/motion/bus_demands.h"
 #include "interpolated_motion_driver/motion/group.h"
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
 #include "interpolated_motion_driver/trajectory/goal_validation.h"
 
 namespace interpolated_motion::motion {
-
-namespace {
-
-/// Longest from the start signal to the host's knowing when it was on the bus, a stall of the host included.
-constexpr GoalTime kSignalAllowance{0.1};
-
-bool begins_at_signal(const axis::Axis& axis) { return axis.start_lead() == GoalTime{0.0}; }
-
-/// What a bus can carry: as far as its share for records goes, or beside the questions to its drives.
-std::string capacity_text(const MissedDeadline& missed, const BusDemand& demand) {
-  if (missed.looks == 0.0)
-    return fmt::format("its share for records allows {:.0f} a second", 1.0 / demand.record_bus_time);
-  return fmt::format(
-      "beside the questions to its drives, which take {:.0f} % of it, it carries {:.0f} a second",
-      1e2 * missed.looks, std::max(0.0, 1.0 - missed.looks) / demand.watch.record_time);
-}
-
-}  // namespace
 
 Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, HostTime now) {
   const auto& rules = parameters_.rules;
@@ -37,6 +15,7 @@ Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, Ho
   if (auto refusal = refuse_now()) return *refusal;
   if (trajectory::is_stop_request(goal)) return accept_stop(now);
   if (auto refusal = trajectory::validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
+  if (const auto committed = changeable_from()) return join(goal, *committed, now);
   if (state_ != GroupState::Idle) return replace_running(goal, now);
   auto planned = plan(goal, now);
   if (!planned) return planned.error();
@@ -65,12 +44,34 @@ std::optional<Refusal> Group::refuse_now() const {
   return std::nullopt;
 }
 
-// The new goal is checked against where the group comes to rest, once it is there.
+// The drives have the end of their motion already, or none that could be changed: the goal begins from rest.
 Expected<GoalAcceptance, Refusal> Group::replace_running(const trajectory::Goal& goal, HostTime now) {
+  if (auto refusal = refuse_from_rest(goal, now)) return *refusal;
   if (pending_) fail_pending("replaced by a newer goal", GoalOutcome::Preempted);
   pending_ = PendingGoal{next_goal_++, goal};
-  if (in_motion()) stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
+  const bool ends = plays_course() && committed(axes_) == axis::kEndCommitted;
+  if (in_motion() && !ends)
+    stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
   return GoalAcceptance{pending_->id, goal.points.back().time, {}};
+}
+
+/// Where the group will rest is known unless it is being stopped; then it is the goal alone that can be
+/// judged, from its own first point on.
+std::optional<Refusal> Group::refuse_from_rest(const trajectory::Goal& goal, HostTime now) const {
+  const std::vector<std::string>& joints = parameters_.rules.joints;
+  const bool ends = plays_course() && committed(axes_) == axis::kEndCommitted;
+  std::vector<trajectory::State> rest = rest_states(axes_);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (ends) rest[i].position = course_.paths()[i].final_position();
+    if (state_ != GroupState::Stopping) continue;
+    const auto name = std::find(goal.joint_names.begin(), goal.joint_names.end(), joints[i]);
+    if (name == goal.joint_names.end()) continue;
+    rest[i].position =
+        goal.points.front().positions[static_cast<std::size_t>(name - goal.joint_names.begin())];
+  }
+  const auto planned = trajectory::plan_goal(goal, parameters_.rules, rest, now);
+  if (!planned) return planned.error();
+  return std::nullopt;
 }
 
 GoalAcceptance Group::accept_stop(HostTime now) {
@@ -97,44 +98,25 @@ std::optional<GoalResult> Group::take_goal_result() {
 }
 
 Expected<trajectory::GoalPlan, Refusal> Group::plan(const trajectory::Goal& goal, HostTime now) {
-  auto planned = trajectory::plan_goal(goal, parameters_.rules, present(), now);
+  auto planned = trajectory::plan_goal(goal, parameters_.rules, rest_states(axes_), now);
   if (!planned) return planned;
-  if (auto refusal = plan_axes(planned.value())) return *refusal;
-  if (auto refusal = check_budget(planned.value())) return *refusal;
-  return planned;
-}
-
-std::optional<Refusal> Group::plan_axes(const trajectory::GoalPlan& plan) {
-  const GoalTime wait = wait_after_signal();
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (auto refusal = axes_[i]->plan(plan.paths[i], wait)) return refusal;
+    if (auto refusal = axes_[i]->plan(planned.value().paths[i], wait_after_signal(axes_))) return *refusal;
   }
-  return std::nullopt;
-}
-
-std::optional<Refusal> Group::check_budget(const trajectory::GoalPlan& plan) const {
-  std::map<std::string, std::vector<BusDemand>> demands;
-  for (const axis::Axis* axis : axes_)
-    demands[axis->bus()].push_back({axis->record_slots(), axis->record_bus_time(), axis->bus_watch()});
-  for (const auto& [bus, demand] : demands) {
-    const auto missed = check_bus_budget(demand, GoalTime{0.0} - plan.lead_in);
-    if (!missed) continue;
-    return Refusal{
-        GoalError::InvalidGoal,
-        fmt::format(
-            "Bus {} cannot carry the goal: at {:.3f} s a record would come {:.0f} ms too late; it needs "
-            "{:.0f} records in the second before, and {}. Slow the goal down, use smoother points, raise the "
-            "bit rate, or put the drives on more buses.",
-            bus, missed->time.count(), std::ceil(1e3 * missed->late.count()), missed->needed,
-            capacity_text(*missed, demand.front()))};
-  }
-  return std::nullopt;
+  if (auto refusal = refuse_beyond_buses(axes_, GoalTime{0.0} - planned.value().lead_in)) return *refusal;
+  return planned;
 }
 
 void Group::start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now) {
   const HostTime start = goal.start ? *goal.start - host_duration(plan.lead_in.count()) : now;
   auto tolerances = trajectory::merge_tolerances(parameters_.tolerances, parameters_.rules.joints, goal);
-  active_ = ActiveGoal{id, std::move(plan), std::move(tolerances), std::max(start, now)};
+  active_ = ActiveGoal{};
+  active_->id = id;
+  active_->tolerances = std::move(tolerances);
+  active_->lead_in = plan.lead_in;
+  active_->duration = plan.duration;
+  active_->start = std::max(start, now);
+  active_->paths = std::move(plan.paths);
   for (axis::Axis* axis : axes_) axis->load(now);
   enter(GroupState::Preparing);
 }
@@ -154,17 +136,16 @@ void Group::start_motion(HostTime now) {
     if (begins_at_signal(*axis)) axis->arm(now, now);
   }
   signal_all(now);
-  active_->started = now;
   in_force_since_ = now;
   set_common_begin(now);
-  last_ = active_;
-  last_is_stream_ = false;
+  course_.begin(std::move(active_->paths));
+  last_ = LastMotion{active_->id, active_->lead_in + active_->duration};
   enter(GroupState::Moving);
 }
 
 /// Tells the axes that need a lead when to begin: when those do that have got the start signal.
 void Group::set_common_begin(HostTime now) {
-  HostTime begin = now + host_duration(longest_lead().count());
+  HostTime begin = now + host_duration(longest_lead(axes_).count());
   if (std::any_of(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return begins_at_signal(*a); })) {
     begin = HostTime::min();
     for (const axis::Axis* axis : axes_) {
@@ -178,21 +159,9 @@ void Group::set_common_begin(HostTime now) {
   active_->begin_is_set = true;
 }
 
-GoalTime Group::longest_lead() const {
-  GoalTime longest{0.0};
-  for (const axis::Axis* axis : axes_) longest = std::max(longest, axis->start_lead());
-  return longest;
-}
-
-GoalTime Group::wait_after_signal() const {
-  const GoalTime lead = longest_lead();
-  return lead > GoalTime{0.0} ? lead + kSignalAllowance : lead;
-}
-
 void Group::finish_goal(const Ending& ending) {
   if (!active_) return;
   results_.push_back({active_->id, ending.outcome, ending.reason.code, ending.reason.text});
-  if (last_ && last_->id == active_->id) last_ = active_;
   active_.reset();
 }
 

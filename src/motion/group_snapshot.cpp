@@ -22,6 +22,8 @@ const char* to_string(GroupState state) {
       return "settling";
     case GroupState::Streaming:
       return "streaming";
+    case GroupState::Standing:
+      return "standing";
     case GroupState::Stopping:
       return "stopping";
     case GroupState::Fault:
@@ -62,8 +64,8 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
   out.state = state_;
   out.fault = fault_;
   out.active_goal = active_ ? active_->id : 0;
-  out.goal_time = active_ ? axes_.front()->playback(now) : GoalTime{0.0};
-  out.goal_duration = active_ ? active_->plan.duration : GoalTime{0.0};
+  out.goal_time = active_ ? axes_.front()->playback(now) - active_->zero : GoalTime{0.0};
+  out.goal_duration = active_ ? active_->duration : GoalTime{0.0};
   out.setpoints = setpoints_;
   out.joints.resize(axes_.size());
   axis::AxisStatus status;
@@ -82,12 +84,10 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
 
 MotionReport Group::report() const {
   MotionReport report;
-  if (!last_ && !last_is_stream_) return report;
+  if (!last_) return report;
   report.valid = true;
-  if (!last_is_stream_) {
-    report.goal = last_->id;
-    report.duration = last_->plan.lead_in + last_->plan.duration;
-  }
+  report.goal = last_->goal;
+  report.duration = last_->duration;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const axis::AxisReport figures = axes_[i]->report();
     JointReport joint;

@@ -22,33 +22,32 @@ std::optional<Refusal> Group::setpoint(const Setpoint& setpoint, HostTime now) {
 std::optional<Refusal> Group::take_setpoint(const Setpoint& setpoint, HostTime now) {
   if (auto refusal = refuse_now()) return refusal;
   if (state_ == GroupState::Idle) return open_stream(setpoint, now);
+  if (state_ == GroupState::Standing) return go_on_with_stream(setpoint, now);
   if (state_ != GroupState::Streaming)
     return Refusal{GoalError::InvalidGoal, "A goal is under way. Setpoints are taken when it has ended."};
   if (auto refusal = stream_.check(setpoint, now)) return refusal;
-  if (stream_stage_ == StreamStage::Following) return follow_stream(setpoint);
+  if (stream_stage_ == StreamStage::Following) return follow_stream(setpoint, now);
   wait_with(setpoint);
   return std::nullopt;
 }
 
 /// The drives are set going at rest; the first setpoint waits until they have begun.
 std::optional<Refusal> Group::open_stream(const Setpoint& setpoint, HostTime now) {
-  std::vector<double> rest;
-  GoalTime lead{0.0};
-  for (const axis::Axis* axis : axes_) {
-    rest.push_back(axis->rest_position());
-    lead = std::max(lead, axis->stream_lead());
-  }
-  stream_.begin(rest, lead, now);
+  const std::vector<trajectory::State> rest = rest_states(axes_);
+  stream_.begin(now, longest_stream_lead(axes_));
   if (auto refusal = stream_.check(setpoint, now)) return refusal;
-  if (auto way = stream_.way_to(setpoint, now); !way) return way.error();
+  if (auto way = stream_.way_to(setpoint, GoalTime{0.0}, rest); !way) return way.error();
   for (axis::Axis* axis : axes_) {
-    if (auto refusal = axis->plan_stream(now, longest_lead() + kTimeToJoin)) return refusal;
+    if (auto refusal = axis->plan_stream(now, longest_lead(axes_) + kTimeToJoin)) return refusal;
   }
   stream_.take(setpoint);
   waiting_ = setpoint;
   for (axis::Axis* axis : axes_) axis->load(now);
+  std::vector<trajectory::Path> paths;
+  for (const trajectory::State& state : rest) paths.emplace_back(state.position);
+  course_.begin(std::move(paths));
   stream_stage_ = StreamStage::Loading;
-  last_is_stream_ = true;
+  last_ = LastMotion{};
   in_force_since_ = now;
   enter(GroupState::Streaming);
   return std::nullopt;
@@ -60,56 +59,65 @@ void Group::wait_with(const Setpoint& setpoint) {
   waiting_ = setpoint;
 }
 
-std::optional<Refusal> Group::follow_stream(const Setpoint& setpoint) {
-  const HostTime committed = this->committed();
-  if (committed == kNever) {
+/// The drives stand, and are still under way. Once they have their end the newest setpoint waits for it.
+std::optional<Refusal> Group::go_on_with_stream(const Setpoint& setpoint, HostTime now) {
+  stream_.begin(now - host_duration(axes_.front()->playback(now).count()), longest_stream_lead(axes_));
+  if (auto refusal = stream_.check(setpoint, now)) return refusal;
+  if (!changeable_from()) {
+    waiting_ = setpoint;
+    return std::nullopt;
+  }
+  if (auto refusal = follow_stream(setpoint, now)) return refusal;
+  stream_stage_ = StreamStage::Following;
+  last_ = LastMotion{};
+  enter(GroupState::Streaming);
+  return std::nullopt;
+}
+
+std::optional<Refusal> Group::follow_stream(const Setpoint& setpoint, HostTime now) {
+  const std::optional<GoalTime> join = committed(axes_);
+  if (!join || *join == axis::kEndCommitted) {
     return Refusal{
         GoalError::InvalidGoal,
         "The stream has paused for so long that its end is in the drives already. Send on: the next "
         "stream begins when they are at rest."};
   }
-  auto paths = stream_.way_to(setpoint, committed);
-  if (!paths) return paths.error();
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (auto refusal = axes_[i]->plan_follow(paths.value()[i])) return refusal;
-  }
+  auto way = stream_.way_to(setpoint, *join, course_.at(*join));
+  if (!way) return way.error();
+  const GoalTime kept = oldest_playback(axes_, now) - kKept;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    way.value()[i] = course_.joined(i, kept, *join, way.value()[i]);
+  if (auto refusal = plan_way_on(axes_, way.value(), axis::Pace::Stream)) return refusal;
   stream_.take(setpoint);
-  stream_.follow(setpoint, std::move(paths.value()));
-  for (axis::Axis* axis : axes_) axis->follow();
+  stream_.follow(setpoint);
+  follow(std::move(way.value()));
   return std::nullopt;
-}
-
-/// Until when the motion of any drive can no longer be changed.
-HostTime Group::committed() const {
-  HostTime committed = HostTime::min();
-  for (const axis::Axis* axis : axes_) committed = std::max(committed, axis->committed());
-  return committed;
 }
 
 // The stream ends by itself: the path behind its last setpoint comes to rest.
 void Group::poll_streaming(HostTime now) {
   if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
   if (stream_stage_ == StreamStage::Loading) {
-    if (all(axis::AxisState::Loaded)) begin_stream(now);
+    if (all_are(axes_, axis::AxisState::Loaded)) begin_stream(now);
     return;
   }
-  if (stream_stage_ == StreamStage::Beginning && committed() != kNever) join_stream();
-  if (all(axis::AxisState::Ready)) enter_rest_state(now);
+  if (stream_stage_ == StreamStage::Beginning && committed(axes_)) join_stream(now);
+  if (all_are(axes_, axis::AxisState::Ready)) rest(now);
 }
 
 void Group::begin_stream(HostTime now) {
-  const HostTime begin = now + host_duration(longest_lead().count());
+  const HostTime begin = now + host_duration(longest_lead(axes_).count());
   for (axis::Axis* axis : axes_) axis->arm(begin, now);
   signal_all(now);
   stream_stage_ = StreamStage::Beginning;
 }
 
 // A setpoint that cannot be reached from here is passed over as one that has been lost: the next one may do.
-void Group::join_stream() {
+void Group::join_stream(HostTime now) {
   stream_stage_ = StreamStage::Following;
   if (!waiting_) return;
   const Setpoint setpoint = *std::exchange(waiting_, std::nullopt);
-  if (!follow_stream(setpoint)) return;
+  if (!follow_stream(setpoint, now)) return;
   stream_.pass_over(setpoint);
   --setpoints_.accepted;
   ++setpoints_.refused;

@@ -43,11 +43,6 @@ void Group::sample_feedback() {
   }
 }
 
-bool Group::feedback_since(HostTime when) const {
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [when](const axis::Axis* a) { return a->feedback().time >= when; });
-}
-
 std::optional<Refusal> Group::find_path_violation() {
   sample_feedback();
   const auto violation = trajectory::find_tolerance_violation(active_->tolerances.path, desired_, actual_);
@@ -74,22 +69,8 @@ HostTime Group::settle_deadline() const {
 
 trajectory::State Group::desired(std::size_t joint, HostTime when) const {
   const axis::Axis& axis = *axes_[joint];
-  const trajectory::Path* path = path_in_force(joint);
-  if (path != nullptr) return path->sample(axis.playback(when));
+  if (plays_course()) return course_.paths()[joint].sample(axis.playback(when));
   return is_held(axis) ? without_acceleration(axis.rest_position(), 0.0) : as_it_goes(axis, when);
-}
-
-/// What the drive of a joint is playing; null at rest.
-const trajectory::Path* Group::path_in_force(std::size_t joint) const {
-  if (state_ == GroupState::Streaming) return &stream_.paths()[joint];
-  const bool playing = state_ == GroupState::Moving || state_ == GroupState::Settling;
-  return playing ? &active_->plan.paths[joint] : nullptr;
-}
-
-std::vector<trajectory::State> Group::present() const {
-  std::vector<trajectory::State> states;
-  for (const axis::Axis* axis : axes_) states.push_back(without_acceleration(axis->rest_position(), 0.0));
-  return states;
 }
 
 bool Group::query(HostTime time, std::vector<trajectory::State>& out) const {

@@ -13,8 +13,6 @@ namespace interpolated_motion::motion {
 
 namespace {
 
-/// What lies further back is kept for feedback that is on its way, then forgotten.
-constexpr GoalTime kKept{0.5};
 /// Setpoints further apart tell nothing about a velocity: the arm is braking in between.
 constexpr double kPause = 0.25;  // s
 
@@ -42,37 +40,32 @@ std::size_t column_of(const Setpoint& setpoint, const std::string& joint) {
 SetpointPath::SetpointPath(trajectory::GoalRules rules, const StreamParameters& parameters)
     : rules_(std::move(rules)), parameters_(parameters) {}
 
-void SetpointPath::begin(const std::vector<double>& positions, GoalTime lead, HostTime now) {
+void SetpointPath::begin(HostTime origin, GoalTime lead) {
   delay_ = parameters_.delay + lead;
-  origin_ = now;
+  origin_ = origin;
   joined_ = false;
   source_.clear();
   newest_.reset();
   known_ = 0;
-  paths_.clear();
-  for (const double position : positions) paths_.emplace_back(position);
-  knots_.assign(positions.size(), {});
-  ++revision_;
+  knots_.assign(rules_.joints.size(), {});
 }
 
-Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(const Setpoint& setpoint,
-                                                                      HostTime committed) const {
-  const GoalTime start = std::max(goal_time(committed), GoalTime{0.0});
+Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(
+    const Setpoint& setpoint, GoalTime start, const std::vector<trajectory::State>& from) const {
   const GoalTime begun_late = std::max(start - goal_time(setpoint.time) - delay_, GoalTime{0.0});
   const GoalTime catch_up = parameters_.catch_up + (joined_ ? GoalTime{0.0} : begun_late);
   std::vector<trajectory::Path> paths;
   for (std::size_t i = 0; i < rules_.joints.size(); ++i) {
     const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, catch_up};
     const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
-    const auto on = trajectory::stream_path(paths_[i].sample(start), start, aim, rules);
+    const auto on = trajectory::stream_path(from[i], start, aim, rules);
     if (!on) {
       Refusal refusal = trajectory::limit_refusal(rules_.joints[i], rules_.limits[i].unit, on.error());
       refusal.text =
           fmt::format("The setpoint cannot be reached within {:.2f} s: {}", catch_up.count(), refusal.text);
       return refusal;
     }
-    paths.push_back(trajectory::splice(paths_[i], start - kKept, start,
-                                       trajectory::with_rest(on.value(), parameters_.linger)));
+    paths.push_back(trajectory::with_rest(on.value(), parameters_.linger));
   }
   return paths;
 }
@@ -82,11 +75,9 @@ void SetpointPath::take(const Setpoint& setpoint) {
   source_ = setpoint.source;
 }
 
-void SetpointPath::follow(const Setpoint& setpoint, std::vector<trajectory::Path> paths) {
+void SetpointPath::follow(const Setpoint& setpoint) {
   pass_over(setpoint);
-  paths_ = std::move(paths);
   joined_ = true;
-  ++revision_;
 }
 
 void SetpointPath::pass_over(const Setpoint& setpoint) {

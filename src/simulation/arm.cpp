@@ -37,6 +37,8 @@ void read_kind(const YAML::Node& drive, const YAML::Node& bus, Joint& joint) {
   const bool is_cyclic = joint.kind == "cyclic";
   const double bound = is_serial ? 2.0 : is_cyclic ? 5.0 : 1.0;
   joint.deviation_bound = read(drive, "deviation_bound", bound);
+  const double of_stream = is_serial ? 0.02 / joint.count() : 8.0 * joint.deviation_bound;
+  joint.joining_bound = is_cyclic ? joint.deviation_bound : read(drive, "stream_deviation_bound", of_stream);
   if (is_serial) joint.sample_period = read(drive, "tick", 0.00012);
   if (!is_cyclic) return;
   joint.sample_period = read(drive, "servo_period", 0.001);

@@ -27,6 +27,7 @@ struct Joint {
   double sample_period = 0.001;  ///< s, nominal, of the drive's demand
   double target_period = 0.0;    ///< s, between target positions, which are whole counts; 0: it gets records
   double deviation_bound = 1.0;  ///< counts
+  double joining_bound = 8.0;    ///< counts, of a goal that has taken over in motion
 
   double position(double counts) const { return offset + counts / counts_per_radian; }  ///< rad
   std::string label() const { return name + " (" + kind + ")"; }
@@ -36,7 +37,7 @@ struct Joint {
 /// What the simulation knows of an arm.
 struct Arm {
   std::vector<Joint> joints;
-  double commit_horizon = 2.0;    ///< s
+  double commit_horizon = 0.5;    ///< s
   double settle_time = 0.5;       ///< s
   double bring_up_timeout = 5.0;  ///< s
   bool enable_on_start = true;

@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<Invariant>> all_invariants(const Ledger& ledger) {
 bool is_at_rest(motion::GroupState state) {
   using motion::GroupState;
   return state == GroupState::Starting || state == GroupState::Disabled || state == GroupState::Enabling ||
-         state == GroupState::Idle || state == GroupState::Fault;
+         state == GroupState::Idle || state == GroupState::Standing || state == GroupState::Fault;
 }
 
 }  // namespace interpolated_motion::simulation

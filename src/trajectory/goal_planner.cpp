@@ -49,8 +49,10 @@ class PathMaker {
 
   GoalTime duration() const { return time_of(selection_.points.back()); }
 
+  bool names(std::size_t joint) const { return selection_.columns[joint] != kNotNamed; }
+
   Expected<Path, Refusal> make(std::size_t joint) {
-    if (selection_.columns[joint] == kNotNamed) return resting_path(joint);
+    if (!names(joint)) return resting_path(joint);
     if (auto refusal = check_end(joint)) return *refusal;
     Path path = moving_path(joint);
     if (const auto violation = find_limit_violation(path, rules_.limits[joint]))
@@ -102,11 +104,11 @@ class PathMaker {
   void collect_knots(std::size_t joint) {
     knots_.clear();
     if (start_.bridge) {
-      knots_.push_back({GoalTime(0.0), {present_[joint].position, 0.0, 0.0}, KnotData::Acceleration});
+      knots_.push_back({GoalTime(0.0), present_[joint], KnotData::Acceleration});
     }
     for (const std::size_t index : selection_.points) knots_.push_back(knot(joint, index));
     knots_.front().time = GoalTime(0.0);
-    bring_to_rest(rules_.limits[joint].unit, knots_.front());
+    if (!start_.bridge) bring_to_rest(rules_.limits[joint].unit, knots_.front());
     bring_to_rest(rules_.limits[joint].unit, knots_.back());
   }
 
@@ -151,13 +153,37 @@ class PathMaker {
           "the velocities "
           "out, and a smooth path is made through the points, or give those that the motion has there.";
     }
-    if (on_bridge) {
-      refusal.text += fmt::format(
-          " This is on the way from rest at the present position {:.6g} {} to points[{}], for which "
-          "there are {:.6f} s.",
-          present_[joint].position, symbol(rules_.limits[joint].unit), first, time_of(first).count());
-    }
+    if (on_bridge) refusal.text += bridge_text(joint, first);
     return refusal;
+  }
+
+  /// Where the joint comes from, and what time the way would take.
+  std::string bridge_text(std::size_t joint, std::size_t first) const {
+    const State& from = present_[joint];
+    const JointUnit unit = rules_.limits[joint].unit;
+    const std::string start =
+        from.velocity == 0.0
+            ? fmt::format("rest at the present position {:.6g} {}", from.position, symbol(unit))
+            : fmt::format("{:.6g} {} and {:.6g} {}, where the joint will be when the goal can take over",
+                          from.position, symbol(unit), from.velocity, symbol(unit, Quantity::Velocity));
+    std::string text = fmt::format(" This is on the way from {} to points[{}], for which there are {:.6f} s.",
+                                   start, first, time_of(first).count());
+    if (const auto least = least_bridge(joint, first))
+      text += fmt::format(" It takes {:.2f} s at least.", least->count());
+    return text;
+  }
+
+  /// The shortest time, to a tenth more, in which the first point can be reached; nothing if it is not a
+  /// matter of time.
+  std::optional<GoalTime> least_bridge(std::size_t joint, std::size_t first) const {
+    constexpr double kNext = 1.1;
+    constexpr GoalTime kLongest{60.0};
+    const Knot from{GoalTime(0.0), present_[joint], KnotData::Acceleration};
+    Knot to = knot(joint, first);
+    for (to.time = std::max(time_of(first), kShortestMotion); to.time <= kLongest; to.time *= kNext) {
+      if (!find_limit_violation(build_path({from, to}), rules_.limits[joint])) return to.time;
+    }
+    return std::nullopt;
   }
 
   const Goal& goal_;
@@ -215,6 +241,7 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
     auto path = maker.make(joint);
     if (!path) return path.error();
     plan.paths.push_back(std::move(path).value());
+    plan.named.push_back(maker.names(joint));
   }
   plan.lead_in = start.value().lead_in;
   plan.duration = maker.duration();

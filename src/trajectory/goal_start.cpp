@@ -101,6 +101,12 @@ class StartPoint {
   const std::vector<State>& present_;
 };
 
+/// Whether any joint is on its way.
+bool in_motion(const std::vector<State>& present) {
+  return std::any_of(present.begin(), present.end(),
+                     [](const State& state) { return state.velocity != 0.0 || state.acceleration != 0.0; });
+}
+
 }  // namespace
 
 Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules,
@@ -115,6 +121,11 @@ Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules
     return all_points_past(
         goal.points.size(), GoalTime(0.0),
         fmt::format("A goal needs a point {:g} s or more after its start.", kMinimumStep.count()));
+  }
+  if (in_motion(present)) {
+    start.bridge = true;
+    selection.points.erase(selection.points.begin());
+    return start;
   }
   if (auto refusal = point.check_tolerance(start.shift)) return *refusal;
   if (const auto joint = point.moving_joint()) {

@@ -30,6 +30,7 @@ Parameters patient_axis(Parameters p) {
 }
 
 axis::EposAxisParameters patient_epos(axis::EposAxisParameters p) {
+  p.commit_horizon = 2.0;
   p.host_watch = host_duration(kPatience);
   return patient_axis(p);
 }

@@ -207,7 +207,7 @@ void Recovery::move_again() {
 
 YAML::Node arm_of_kind(Kind kind) {
   if (kind == Kind::Silverlode) return six_axis_silverlode();
-  return kind == Kind::Epos ? six_axis() : six_axis("{commit_horizon: 0.5}");
+  return six_axis(kind == Kind::Epos ? "{commit_horizon: 2}" : "{commit_horizon: 0.5}");
 }
 
 Cost Recovery::measure(double instant) {

@@ -31,7 +31,7 @@ struct Arm {
 };
 
 const Arm kArms[] = {
-    {"EPOS2", [] { return six_axis(); }, 1.0, 2.0},
+    {"EPOS2, commit_horizon 2", [] { return six_axis("{commit_horizon: 2}"); }, 1.0, 2.0},
     {"EPOS2, commit_horizon 6", [] { return six_axis("{commit_horizon: 6}"); }, 1.0, 6.0},
     {"EPOS2, commit_horizon 0.5", [] { return six_axis("{commit_horizon: 0.5}"); }, 1.0, 0.5},
     {"SilverLode, 8 deep", [] { return silverlode_with_queue_of(8); }, 2.0, 2.0},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,6 +87,15 @@ struct RecordSlot {
   GoalTime deadline{0.0};  ///< it must be in the FIFO by then
 };
 
+/// What Axis::committed() is when the end of the path can no longer be changed.
+inline constexpr GoalTime kEndCommitted{std::numeric_limits<double>::infinity()};
+
+/// For whom a path is played: decides how it is encoded, and how far ahead of the present it is committed.
+enum class Pace {
+  Goal,    ///< as few records as will do, `commit_horizon` ahead
+  Stream,  ///< short records, a tenth of a second ahead: the path is about to change
+};
+
 /// One drive as the host sees it: found, verified, enabled, fed and stopped through this interface, whatever
 /// its kind. Sans-IO: it is called with the time, and its frames go through the master of its bus. Commands
 /// return at once; their progress is seen in state(). A command that fails ends in Fault or Offline with a
@@ -152,21 +162,23 @@ class Axis {
   /// Loaded.
   virtual void stop(HostTime now) = 0;
 
-  // A path that is still being made while it is followed, for a stream of setpoints.
+  // A path that changes while it is played.
 
-  /// As plan(), for a path whose goal time 0 is at host time `origin` and which plan_follow() makes longer:
-  /// at first the axis stands, for `rest` from the begin on. load() and arm() start it like any plan.
+  /// As plan(), for a stream of setpoints: a path whose goal time 0 is at host time `origin` and which
+  /// plan_follow() makes longer; at first the axis stands, for `rest` from the begin on. load() and arm()
+  /// start it like any plan.
   virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
   /// How far ahead of the present the motion is committed, at most, while a stream is followed.
   virtual GoalTime stream_lead() const = 0;
-  /// Until when the path can no longer be changed, at host time `origin` + goal time; kNever while the motion
-  /// has not begun and once its end is committed.
-  virtual HostTime committed() const = 0;
+  /// Until when the path can no longer be changed, in its goal time: infinite once its end is committed;
+  /// nothing while the motion has not begun.
+  virtual std::optional<GoalTime> committed() const = 0;
   /// Encodes the way on along `path`, which is the former one up to committed() and ends at rest. Refused
-  /// paths leave the axis as it was. Only while committed() is not kNever.
-  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path) = 0;
-  /// Takes the way planned last by plan_follow(), at the same `now`. At the end of the path the axis is
-  /// finished.
+  /// paths leave the axis as it was. Only while committed() is finite.
+  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  /// The records of the way planned last by plan_follow(), as record_slots() gives those of a plan.
+  virtual std::vector<RecordSlot> follow_slots() const = 0;
+  /// Takes that way, at the same `now`. At the end of the path the axis is finished.
   virtual void follow() = 0;
 
   /// Goal time the drive is playing at host time `when` (before the path's start while not started).

@@ -48,10 +48,11 @@ class ComposedAxis : public Axis {
     return player_->plan_stream(origin, rest);
   }
   GoalTime stream_lead() const override { return player_->stream_lead(); }
-  HostTime committed() const override { return player_->committed(); }
-  std::optional<Refusal> plan_follow(const trajectory::Path& path) override {
-    return player_->plan_follow(path);
+  std::optional<GoalTime> committed() const override { return player_->committed(); }
+  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override {
+    return player_->plan_follow(path, pace);
   }
+  std::vector<RecordSlot> follow_slots() const override { return player_->follow_slots(); }
   void follow() override { player_->follow(); }
 
   GoalTime playback(HostTime when) const override { return player_->playback(when); }

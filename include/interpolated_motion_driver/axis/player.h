@@ -51,11 +51,12 @@ class Player {
   virtual HostTime path_begin() const = 0;
   virtual void stop(HostTime now) = 0;
 
-  /// As Axis, for a path that grows while it is played.
+  /// As Axis, for a path that changes while it is played.
   virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
   virtual GoalTime stream_lead() const = 0;
-  virtual HostTime committed() const = 0;
-  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path) = 0;
+  virtual std::optional<GoalTime> committed() const = 0;
+  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  virtual std::vector<RecordSlot> follow_slots() const = 0;
   virtual void follow() = 0;
 
   /// As Axis: what the drive plays, as its clock is known.

@@ -46,6 +46,11 @@ std::int32_t setpoint_at(const trajectory::Path& path, const Transmission& trans
 Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path& path,
                                                          const SetpointEncoding& encoding);
 
+/// The same for the rest of a path that the drive comes along already: only target positions from `first` on,
+/// a goal time within the path, and what the drive makes of them.
+Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, const trajectory::Path& path,
+                                                              const SetpointEncoding& encoding);
+
 /// Largest acceleration, per s^2, of what the drive makes of target positions that follow `path` exactly, not
 /// rounded to counts: by differences of its demand from servo sample to servo sample, between the target
 /// positions at `first` and those behind the path. `encoding` must be valid.

@@ -36,7 +36,7 @@ struct Configuration {
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
   double max_start_ahead = 3600.0;         ///< s from now to a goal's stamp; one further ahead is refused
-  double commit_horizon = 2.0;             ///< s of motion kept in the drives' FIFOs
+  double commit_horizon = 0.5;             ///< s of motion kept in the drives' FIFOs
   double bring_up_timeout = 5.0;           ///< s for all drives to answer and be configured
   double settle_timeout = 0.5;  ///< s after the last record for the joints to settle, when goal_time is 0
   bool enable_on_start = true;  ///< power stages are switched on when all drives are configured

@@ -10,19 +10,30 @@
 
 namespace interpolated_motion::motion {
 
-/// A goal whose records are in the drives, or on the way there.
+/// A goal that the drives execute, or are being loaded for.
 struct ActiveGoal {
   GoalId id = 0;                      ///< as in its GoalAcceptance
-  trajectory::GoalPlan plan;          ///< whole, one path per joint, rest to rest
   trajectory::Tolerances tolerances;  ///< the goal's own over those of the configuration
-  HostTime start{};                   ///< earliest host time at which the motion may begin
-  HostTime started = kNever;          ///< when the start command was sent
-  bool begin_is_set = false;          ///< every axis has been told when its path begins
-  HostTime ended = kNever;            ///< when the last drive had played its records
+  GoalTime lead_in{0.0};              ///< as in its plan
+  GoalTime duration{0.0};             ///< as in its plan
+  GoalTime zero{0.0};                 ///< goal time of the course at time 0 of the goal's plan
+  /// When it has been executed, in goal time of the course, while the drives stay under way; nothing: when
+  /// they have left their interpolation.
+  std::optional<GoalTime> end;
+  std::vector<trajectory::Path> paths;  ///< of its plan, until the motion begins
+  HostTime start{};                     ///< earliest host time at which the motion may begin
+  bool begin_is_set = false;            ///< every axis has been told when its path begins
+  HostTime ended = kNever;              ///< when the last drive had played its records
 };
 
-/// A goal that has been accepted while another one is being brought to rest; it is planned from where the
-/// group stops.
+/// The goal that has moved last, for the motion report.
+struct LastMotion {
+  GoalId goal = 0;         ///< 0: a stream of setpoints
+  GoalTime duration{0.0};  ///< its lead-in included
+};
+
+/// A goal that has been accepted while the group comes to rest, and the drives can no longer be told anything
+/// else; it is planned from where the group stops.
 struct PendingGoal {
   GoalId id = 0;          ///< as in its GoalAcceptance
   trajectory::Goal goal;  ///< checked in form only: that it can be executed is not known yet

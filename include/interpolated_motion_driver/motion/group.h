@@ -8,6 +8,8 @@
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/start_signal.h"
 #include "interpolated_motion_driver/motion/active_goal.h"
+#include "interpolated_motion_driver/motion/axes.h"
+#include "interpolated_motion_driver/motion/course.h"
 #include "interpolated_motion_driver/motion/requests.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/setpoint.h"
@@ -29,9 +31,14 @@ struct GroupParameters {
   StreamParameters stream;             ///< delays and patience with setpoints
 };
 
-/// A group of axes that move together, on any mix of buses and kinds of drives. A goal goes through: checked
-/// and encoded whole for every axis, loaded into all FIFOs, common start, supervised, settled. Whatever goes
-/// wrong on the way brings all axes to rest, and nothing moves again without a new goal.
+/// A group of axes that move together, on any mix of buses and kinds of drives. From rest a goal goes
+/// through: checked and encoded whole for every axis, loaded into all FIFOs, common start, supervised,
+/// settled. Whatever goes wrong on the way brings all axes to rest, and nothing moves again without a new
+/// goal.
+///
+/// A goal that comes while the drives are under way joins: behind what is committed the course of all joints
+/// is another one, without standing still. All axes take it at once, or none does, and the former motion
+/// goes on.
 ///
 /// Common start: axes that begin at the start signal of their bus all get it at once. Where others begin at
 /// an instant they are told beforehand, the former rest for a while after their signal, and the latter are
@@ -51,7 +58,7 @@ class Group {
   /// Why the group is in Fault; empty otherwise.
   const std::string& fault() const { return fault_; }
 
-  /// Takes a goal, or says why not. One that is under way is stopped first, and ends as Preempted.
+  /// Takes a goal, or says why not; then what is under way goes on. One that is under way ends as Preempted.
   Expected<GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
   /// Stops the goal if it is still under way; it ends as Preempted. Nothing happens for any other id.
   void cancel(GoalId goal, HostTime now);
@@ -72,11 +79,8 @@ class Group {
   /// The committed trajectory at `time`, a state per joint. False, and `out` as it was, when `time` is before
   /// the start of the trajectory in force.
   bool query(HostTime time, std::vector<trajectory::State>& out) const;
-  /// The goal in force, whose paths the drives are playing or have played last. Null before the first goal
-  /// has been loaded.
-  const ActiveGoal* last_goal() const { return last_ ? &*last_ : nullptr; }
-  /// The paths of the stream of setpoints that is followed or was followed last.
-  const SetpointPath& stream() const { return stream_; }
+  /// What the drives are playing or have played last.
+  const Course& course() const { return course_; }
 
  private:
   void poll_starting(HostTime now);
@@ -85,6 +89,7 @@ class Group {
   void poll_moving(HostTime now);
   void poll_settling(HostTime now);
   void poll_streaming(HostTime now);
+  void poll_standing(HostTime now);
   void poll_stopping(HostTime now);
   void poll_fault(HostTime now);
 
@@ -98,50 +103,49 @@ class Group {
   void abort_with_fault_of(const axis::Axis& axis, HostTime now);
   void enter(GroupState state);
   void enter_rest_state(HostTime now);
+  void rest(HostTime now);
   void enter_fault();
   void signal_all(HostTime now);
 
   std::optional<Refusal> refuse_now() const;
   Expected<GoalAcceptance, Refusal> replace_running(const trajectory::Goal& goal, HostTime now);
+  Expected<GoalAcceptance, Refusal> join(const trajectory::Goal& goal, GoalTime committed, HostTime now);
+  std::vector<trajectory::Path> course_with(const trajectory::GoalPlan& plan, GoalTime join, GoalTime end,
+                                            GoalTime kept) const;
+  void follow(std::vector<trajectory::Path> paths);
+  std::optional<GoalTime> changeable_from() const;
+  std::optional<Refusal> refuse_from_rest(const trajectory::Goal& goal, HostTime now) const;
   GoalAcceptance accept_stop(HostTime now);
   Expected<trajectory::GoalPlan, Refusal> plan(const trajectory::Goal& goal, HostTime now);
-  std::optional<Refusal> plan_axes(const trajectory::GoalPlan& plan);
-  std::optional<Refusal> check_budget(const trajectory::GoalPlan& plan) const;
   void start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now);
   void start_pending(HostTime now);
   void start_motion(HostTime now);
   void set_common_begin(HostTime now);
-  GoalTime longest_lead() const;
-  GoalTime wait_after_signal() const;
   std::optional<Refusal> take_setpoint(const Setpoint& setpoint, HostTime now);
   std::optional<Refusal> open_stream(const Setpoint& setpoint, HostTime now);
-  std::optional<Refusal> follow_stream(const Setpoint& setpoint);
+  std::optional<Refusal> go_on_with_stream(const Setpoint& setpoint, HostTime now);
+  std::optional<Refusal> follow_stream(const Setpoint& setpoint, HostTime now);
   void wait_with(const Setpoint& setpoint);
   void begin_stream(HostTime now);
-  void join_stream();
-  HostTime committed() const;
-  const trajectory::Path* path_in_force(std::size_t joint) const;
+  void join_stream(HostTime now);
+  bool plays_course() const;
   void finish_goal(const Ending& ending);
   void finish_stop_goals(GoalOutcome outcome, const std::string& why = {});
   void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);
 
   void sample_feedback();
-  bool feedback_since(HostTime when) const;
   std::optional<Refusal> find_path_violation();
   std::optional<Refusal> find_goal_violation();
   HostTime settle_deadline() const;
   trajectory::State desired(std::size_t joint, HostTime when) const;
-  std::vector<trajectory::State> present() const;
 
   bool in_motion() const;
-  bool all(axis::AxisState state) const;
-  bool any(axis::AxisState state) const;
   const axis::Axis* faulted() const;
   std::string bus_faults() const;
   std::string faults() const;
 
   GroupParameters parameters_;
-  std::vector<axis::Axis*> axes_;
+  Axes axes_;
   std::vector<axis::StartSignal*> signals_;
   GroupState state_ = GroupState::Starting;
   bool enable_when_found_ = false;
@@ -152,14 +156,14 @@ class Group {
   HostTime in_force_since_ = kNever;  ///< start of the trajectory (or rest) that query() answers for
 
   GoalId next_goal_ = 1;
+  Course course_;
   std::optional<ActiveGoal> active_;
-  std::optional<ActiveGoal> last_;
+  std::optional<LastMotion> last_;
   std::optional<PendingGoal> pending_;
   std::optional<Ending> ending_;
   /// How far a stream has come: loading into the drives, on their way to its begin, following.
   enum class StreamStage { Loading, Beginning, Following };
   StreamStage stream_stage_ = StreamStage::Following;
-  bool last_is_stream_ = false;  ///< what report() is about
   SetpointPath stream_;
   std::optional<Setpoint> waiting_;  ///< the newest one, until the drives have begun
   StreamCounters setpoints_;

@@ -83,6 +83,7 @@ enum class GroupState {
   Moving,
   Settling,   ///< the records are played; waiting for the joints to be within their goal tolerances
   Streaming,  ///< follows setpoints
+  Standing,   ///< at rest after a goal, the drives still under way for a moment: the next goal joins at once
   Stopping,
   Fault,  ///< a drive is in fault or lost; ~reset_faults, then ~enable
 };

@@ -13,11 +13,12 @@
 
 namespace interpolated_motion::trajectory {
 
-/// A goal that may be executed as it is: checked whole, from rest to rest. Time 0 of the plan is the goal's
-/// stamp if that is still to come, else any time from now on. All paths start at -`lead_in` (at 0 without
-/// one) and end at `duration`.
+/// A goal that may be executed as it is: checked whole, from the present states to rest. Time 0 of the plan
+/// is the goal's stamp if that is still to come, else any time from now on. All paths start at -`lead_in` (at
+/// 0 without one) and end at `duration`.
 struct GoalPlan {
   std::vector<Path> paths;  ///< in the order of `GoalRules::joints`
+  std::vector<bool> named;  ///< of each joint, by the goal; the path of another one rests
   GoalTime lead_in{0.0};    ///< length of the move to the first point, in whole ms; 0 or at least 20 ms
   GoalTime duration{0.0};   ///< goal time of the last point, > 0
   /// What was cut off because the goal's stamp was in the past when it was planned: a point at time t of the
@@ -26,9 +27,9 @@ struct GoalPlan {
   std::vector<std::string> warnings;  ///< for the log: the goal is executed, though not to the letter
 };
 
-/// Plans `goal` for joints that rest at `present` (one state per joint of `rules`; only its position is
-/// used).
+/// Plans `goal` for joints that are in the states `present` at `now` (one per joint of `rules`).
 ///
+/// At rest:
 /// - First point at time 0 (earlier than `kMinimumStep`): the start. It must be within `start_tolerance` of
 ///   the present position; if any joint is farther than `lead_in_threshold`, all joints first move there,
 ///   rest to rest, at no more than half of their limits, in -`lead_in` .. 0. Nearer than that the path begins
@@ -37,6 +38,13 @@ struct GoalPlan {
 ///   joint_trajectory_controller the present state takes its place; a warning says so.
 /// - First point later: the path bridges from rest at the present position, beginning at 0.
 ///   `start_tolerance` does not apply, the limits do.
+/// While any joint is in motion (as joint_trajectory_controller):
+/// - A first point at time 0 cannot be met: the present states take its place.
+/// - The path bridges from the present states to the first point that is left, at its time. A way that the
+///   limits do not allow is refused, with the least time that it would take.
+/// - Joints that the goal does not name are planned as if they rested: what they do is up to the caller.
+///
+/// Always:
 /// - Positions of a continuous joint are shifted, all alike, by the multiple of 2 pi that brings the first
 ///   point nearest to the present position. At half a turn (`kHalfTurnTolerance`) it is the smaller one: the
 ///   joint moves as the numbers say, and does not wind up.

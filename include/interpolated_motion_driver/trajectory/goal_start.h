@@ -27,7 +27,7 @@ struct PointSelection {
   GoalTime skipped{0.0};             ///< time of the plan = time of the goal - `skipped`
 };
 
-/// How a goal gets going from rest at the present positions.
+/// How a goal gets going from the present states.
 struct GoalStart {
   bool bridge = false;    ///< the path begins at the present positions, at 0; else at the first point
   GoalTime lead_in{0.0};  ///< length of the move to the first point before time 0
@@ -37,8 +37,8 @@ struct GoalStart {
 };
 
 /// Decides how the goal starts, by the rules of `plan_goal`. Where the first point cannot be met because it
-/// moves, it is taken out of `selection`. Refused (InvalidGoal): a first point at 0 farther from the present
-/// position than the joint's start tolerance; one that is the only point, in the words of
+/// moves, or the joints do, it is taken out of `selection`. Refused (InvalidGoal): a first point at 0 farther
+/// from the present position than the joint's start tolerance; one that is the only point, in the words of
 /// joint_trajectory_controller, which drops it.
 Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules,
                                         const std::vector<State>& present, PointSelection& selection);

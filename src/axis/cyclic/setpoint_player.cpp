@@ -181,6 +181,7 @@ void SetpointPlayer::arm(HostTime begin, HostTime now) {
   }
   begin_ = begin;
   if (stream_origin_) path_ = trajectory::shifted(path_, GoalTime{seconds(begin - *stream_origin_)});
+  origin_ = stream_origin_ ? *stream_origin_ : begin - host_duration(path_.start_time().count());
   drive_.setpoints().follow(path_, begin);
   enter(Phase::Moving, now);
 }
@@ -229,7 +230,7 @@ void SetpointPlayer::come_to_rest(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// A path that is still being made.
+// A path that changes.
 
 std::optional<Refusal> SetpointPlayer::plan_stream(HostTime origin, GoalTime rest) {
   planned_ = trajectory::with_rest(trajectory::Path(rest_position()), rest);
@@ -241,18 +242,29 @@ GoalTime SetpointPlayer::stream_lead() const {
   return GoalTime{(kLatency + 1) * seconds(drive_.parameters().sync_period)};
 }
 
-HostTime SetpointPlayer::committed() const {
-  return phase_ == Phase::Moving && stream_origin_ ? drive_.setpoints().newest() : kNever;
+std::optional<GoalTime> SetpointPlayer::committed() const {
+  if (finished_) return kEndCommitted;
+  if (phase_ != Phase::Moving) return std::nullopt;
+  return GoalTime{seconds(drive_.setpoints().newest() - origin_)};
 }
 
-std::optional<Refusal> SetpointPlayer::plan_follow(const trajectory::Path& path) {
+/// What the drive makes of a target position depends on a few before it: those have been held against the
+/// former way.
+std::optional<Refusal> SetpointPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
+  const auto encoding = setpoint_encoding(drive_.parameters());
+  if (pace == Pace::Goal) {
+    const GoalTime known = interpolation::kCipHistory * encoding.period;
+    const GoalTime first = std::max(*committed() - known, path.start_time());
+    const auto certificate = encoding::certify_setpoints_from(first, path, encoding);
+    if (!certificate) return certificate.error();
+  }
   planned_ = path;
   return std::nullopt;
 }
 
 void SetpointPlayer::follow() {
   path_ = planned_;
-  begin_ = *stream_origin_ + host_duration(path_.start_time().count());
+  begin_ = origin_ + host_duration(path_.start_time().count());
   drive_.setpoints().follow(path_, begin_);
 }
 

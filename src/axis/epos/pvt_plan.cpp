@@ -48,6 +48,12 @@ encoding::PvtEncoding stream_encoding(const EposDevice& drive) {
   return encoding;
 }
 
+FeedLimits feed_limits(const EposDevice& drive, Pace pace) {
+  const EposAxisParameters& parameters = drive.parameters();
+  const double wanted = pace == Pace::Goal ? parameters.commit_horizon : parameters.stream_horizon;
+  return {drive.facts().capacity, horizon(drive, wanted)};
+}
+
 }  // namespace
 
 Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajectory::Path& path, GoalTime wait,
@@ -56,7 +62,7 @@ Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajecto
   if (!stream) return stream.error();
   PvtPlan plan;
   plan.wait = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
-  plan.feed.load(stream.value(), {drive.facts().capacity, horizon(drive, drive.parameters().commit_horizon)});
+  plan.feed.load(stream.value(), feed_limits(drive, Pace::Goal));
   plan.start = path.start_time();
   return plan;
 }
@@ -68,21 +74,22 @@ Expected<PvtPlan, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime o
   const auto stream = encoding::encode_pvt(standing, stream_encoding(drive), rest_counts);
   if (!stream) return stream.error();
   PvtPlan plan;
-  plan.feed.load(stream.value(), {drive.facts().capacity, horizon(drive, drive.parameters().stream_horizon)});
+  plan.feed.load(stream.value(), feed_limits(drive, Pace::Stream));
   plan.origin = origin;
   return plan;
 }
 
-Expected<encoding::PvtStream, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
-                                                       const encoding::PvtKnot& knot) {
+Expected<PvtWayOn, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
+                                            const encoding::PvtKnot& knot, Pace pace) {
   const encoding::PvtKnot from{0, knot.position, knot.velocity};
-  encoding::PvtEncoding encoding = stream_encoding(drive);
+  encoding::PvtEncoding encoding = pace == Pace::Goal ? goal_encoding(drive) : stream_encoding(drive);
   auto stream = encoding::encode_pvt(rest, encoding, from);
   while (!stream && 2.0 * encoding.bound_counts <= drive.parameters().stream_deviation_bound) {
     encoding.bound_counts *= 2.0;
     stream = encoding::encode_pvt(rest, encoding, from);
   }
-  return stream;
+  if (!stream) return stream.error();
+  return PvtWayOn{std::move(stream.value()), feed_limits(drive, pace), 1.0};
 }
 
 GoalTime pvt_stream_lead(const EposDevice& drive) {

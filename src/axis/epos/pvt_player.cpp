@@ -154,6 +154,7 @@ void PvtPlayer::start_clock() {
   clock_.start(drive_.master().last_sync_time() + host_duration(kHalfSample),
                drive_.facts().takes_time_stamps);
   if (stream_origin_) timeline_.begin(GoalTime{seconds(clock_.start_time() - *stream_origin_)});
+  origin_ = clock_.start_time() - host_duration(timeline_.at(0.0).count());
 }
 
 void PvtPlayer::poll_armed(HostTime now) {
@@ -230,7 +231,7 @@ void PvtPlayer::poll_ending(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// A path that is still being made: what has not been sent yet is encoded anew whenever it has changed.
+// A path that changes: what has not been sent yet is encoded anew.
 
 std::optional<Refusal> PvtPlayer::plan_stream(HostTime origin, GoalTime rest) {
   auto plan = plan_pvt_standing(drive_, origin, rest, rest_counts_);
@@ -239,27 +240,36 @@ std::optional<Refusal> PvtPlayer::plan_stream(HostTime origin, GoalTime rest) {
   return std::nullopt;
 }
 
-HostTime PvtPlayer::committed() const {
-  if (phase_ != Phase::Moving || !stream_origin_ || feed_.all_sent()) return kNever;
-  const GoalTime knot = timeline_.at(1e-3 * static_cast<double>(feed_.sent_knot().sample));
-  return *stream_origin_ + host_duration(knot.count());
+double PvtPlayer::sent_until() const { return 1e-3 * static_cast<double>(feed_.sent_knot().sample); }
+
+std::optional<GoalTime> PvtPlayer::committed() const {
+  if (phase_ == Phase::Ending || finished_) return kEndCommitted;
+  if (phase_ != Phase::Moving) return std::nullopt;
+  return feed_.all_sent() ? kEndCommitted : timeline_.at(sent_until());
 }
 
-std::optional<Refusal> PvtPlayer::plan_follow(const trajectory::Path& path) {
-  const encoding::PvtKnot knot = feed_.sent_knot();
-  const double from = 1e-3 * static_cast<double>(knot.sample);
+std::optional<Refusal> PvtPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
+  const double from = sent_until();
   const GoalTime reached = timeline_.at(from);
-  const double due = seconds(clock_.host_time(from) - *stream_origin_);
-  way_on_rate_ = clock_.goal_rate(due - reached.count());
-  auto stream = plan_pvt_way_on(drive_, trajectory::remainder(path, reached, way_on_rate_), knot);
-  if (!stream) return stream.error();
-  way_on_ = std::move(stream.value());
+  const double due = seconds(clock_.host_time(from) - origin_);
+  const double rate = clock_.goal_rate(due - reached.count());
+  auto way_on = plan_pvt_way_on(drive_, trajectory::remainder(path, reached, rate), feed_.sent_knot(), pace);
+  if (!way_on) return way_on.error();
+  way_on_ = std::move(way_on.value());
+  way_on_.rate = rate;
   return std::nullopt;
 }
 
+std::vector<RecordSlot> PvtPlayer::follow_slots() const {
+  RecordFeed feed = feed_;
+  feed.replace_unsent(way_on_.stream, way_on_.limits);
+  const double from = sent_until();
+  return feed.slots(timeline_.at(from) - GoalTime{from});
+}
+
 void PvtPlayer::follow() {
-  timeline_.change_rate(1e-3 * static_cast<double>(feed_.sent_knot().sample), way_on_rate_);
-  feed_.replace_unsent(way_on_);
+  timeline_.change_rate(sent_until(), way_on_.rate);
+  feed_.replace_unsent(way_on_.stream, way_on_.limits);
 }
 
 // Stopping.

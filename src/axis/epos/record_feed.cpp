@@ -46,7 +46,8 @@ encoding::PvtKnot RecordFeed::sent_knot() const {
   return {std::llround(last.end * 1e3), last.record.position, last.record.velocity};
 }
 
-void RecordFeed::replace_unsent(const encoding::PvtStream& stream) {
+void RecordFeed::replace_unsent(const encoding::PvtStream& stream, const FeedLimits& limits) {
+  limits_ = limits;
   records_.resize(sent_ - forgotten_);
   append(stream.records);
 }
@@ -91,13 +92,14 @@ double RecordFeed::fastest_ahead(double elapsed, double unit) const {
 // Record i must be there when record i - 2 has been reached, so that the drive always finds two.
 std::vector<RecordSlot> RecordFeed::slots(GoalTime start) const {
   const std::size_t places = limits_.capacity - kSpare;
-  std::vector<RecordSlot> slots(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    slots[i].deadline = start + GoalTime{i < 2 ? 0.0 : end(i - 2)};
+  std::vector<RecordSlot> slots(size() - sent_);
+  for (std::size_t i = sent_; i < size(); ++i) {
+    RecordSlot& slot = slots[i - sent_];
+    slot.deadline = start + GoalTime{i < 2 ? 0.0 : end(i - 2)};
     const double place_free = i < places ? 0.0 : end(i - places);
     const double in_horizon = i < kLeastAhead ? 0.0 : end(i - 1) - limits_.horizon;
     const double soon_enough = i < kLeastAhead ? 0.0 : end(i - kLeastAhead);
-    slots[i].release = start + GoalTime{std::max(place_free, std::min(in_horizon, soon_enough))};
+    slot.release = start + GoalTime{std::max(place_free, std::min(in_horizon, soon_enough))};
   }
   return slots;
 }

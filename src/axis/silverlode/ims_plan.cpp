@@ -89,6 +89,20 @@ Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& paramet
                  std::nullopt, encoding};
 }
 
+std::vector<RecordSlot> ims_slots_in_motion(const SilverlodeAxisParameters& parameters,
+                                            const SegmentDelivery& delivery,
+                                            const std::vector<double>& begins, std::size_t sent,
+                                            GoalTime start) {
+  std::vector<RecordSlot> slots = delivery.slots(begins, parameters.commit_horizon);
+  slots.erase(slots.begin(),
+              slots.begin() + static_cast<std::ptrdiff_t>(sent * delivery.records_per_segment()));
+  for (RecordSlot& slot : slots) {
+    slot.release += start;
+    slot.deadline += start;
+  }
+  return slots;
+}
+
 GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
                          const silverlode::LineMaster& line) {
   const auto ticks = ims_stream_encoding(parameters, delivery, line).max_segment_ticks;

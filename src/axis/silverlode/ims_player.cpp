@@ -33,6 +33,10 @@ std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& p
   return std::make_unique<QueueDelivery>(context, static_cast<std::size_t>(parameters.queue_depth));
 }
 
+double horizon_of(const SilverlodeAxisParameters& parameters, Pace pace) {
+  return pace == Pace::Stream ? parameters.stream_horizon : parameters.commit_horizon;
+}
+
 /// Goal seconds per drive second for the next segment.
 double rate_for_next(const SegmentFeed& feed, const PlaybackClock& clock, HostTime begin) {
   const HostTime knot = clock.host_time(feed.queue_end());
@@ -164,7 +168,8 @@ BusWatch ImsPlayer::bus_watch() const {
 void ImsPlayer::load(HostTime now) {
   stream_origin_ = planned_.origin;
   stream_begin_ = GoalTime{0.0};
-  feed_.load(planned_.path, planned_.encoding, rest_counts_, delivery_->capacity());
+  const double horizon = horizon_of(parameters_, stream_origin_ ? Pace::Stream : Pace::Goal);
+  feed_.load(planned_.path, {planned_.encoding, horizon}, rest_counts_, delivery_->capacity());
   planned_.lead = start_lead().count();
   feed_.wait(std::llround(kFirstWait * planned_.lead / parameters_.scale.tick));
   finished_ = false;
@@ -223,22 +228,16 @@ void ImsPlayer::poll_moving(HostTime now) {
   if (const auto look = std::exchange(stage_.status().execution, std::nullopt)) {
     if (const auto failure = execution_.take(*look)) return stage_.fail(*failure, now);
   }
-  feed(now);
-  if (phase_ != Phase::Moving) return;
+  const bool few = feed_.waiting(clock_.elapsed(now), true) < kLeastAhead;
+  const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < feed_.horizon();
+  const bool more = !feed_.all_sent() && (few || within_horizon);
+  if (const auto failure = delivery_->offer(more, rate_for_next(feed_, clock_, begin_), now))
+    return stage_.fail(*failure, now);
   if (!feed_.all_sent() && now >= begin_) {
     const auto fill = feed_.waiting(clock_.elapsed(now), true);
     minimum_fill_ = std::min(minimum_fill_, static_cast<std::uint32_t>(fill));
   }
   watch_motion(now);
-}
-
-void ImsPlayer::feed(HostTime now) {
-  const double horizon = stream_origin_ ? parameters_.stream_horizon : parameters_.commit_horizon;
-  const bool few = feed_.waiting(clock_.elapsed(now), true) < kLeastAhead;
-  const bool within_horizon = feed_.queue_end() - clock_.elapsed(now) < horizon;
-  const bool more = !feed_.all_sent() && (few || within_horizon);
-  if (const auto failure = delivery_->offer(more, rate_for_next(feed_, clock_, begin_), now))
-    stage_.fail(*failure, now);
 }
 
 void ImsPlayer::watch_motion(HostTime now) {
@@ -304,7 +303,7 @@ void ImsPlayer::stop(HostTime now) {
                           now);
 }
 
-// A path that is still being made: it may change behind the segment that has been encoded last.
+// A path that changes: it may do so behind the segment that has been encoded last.
 
 std::optional<Refusal> ImsPlayer::plan_stream(HostTime origin, GoalTime rest) {
   planned_ = {trajectory::with_rest(trajectory::Path(rest_position()), rest),
@@ -314,15 +313,24 @@ std::optional<Refusal> ImsPlayer::plan_stream(HostTime origin, GoalTime rest) {
   return std::nullopt;
 }
 
-HostTime ImsPlayer::committed() const {
-  if (phase_ != Phase::Moving || !stream_origin_ || feed_.ending()) return kNever;
-  return *stream_origin_ + host_duration((stream_begin_ + feed_.knot_goal_time()).count());
+std::optional<GoalTime> ImsPlayer::committed() const {
+  if (phase_ == Phase::Ending || finished_) return kEndCommitted;
+  if (phase_ != Phase::Moving) return std::nullopt;
+  return feed_.ending() ? kEndCommitted : stream_begin_ + feed_.knot_goal_time();
 }
 
-std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path) {
+std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
   const trajectory::Path own = trajectory::shifted(path, GoalTime{0.0} - stream_begin_);
-  return feed_.plan_way_on(own, ims_stream_encoding(parameters_, *delivery_, stage_.line()),
+  const auto encoding = pace == Pace::Goal ? ims_goal_encoding(parameters_, *delivery_)
+                                           : ims_stream_encoding(parameters_, *delivery_, stage_.line());
+  return feed_.plan_way_on(own, {encoding, horizon_of(parameters_, pace)},
                            parameters_.stream_deviation_bound);
+}
+
+std::vector<RecordSlot> ImsPlayer::follow_slots() const {
+  const std::vector<double> begins = feed_.way_on_begins(delivery_->capacity());
+  return ims_slots_in_motion(parameters_, *delivery_, begins, begins.size() - feed_.way_on_size(),
+                             stream_begin_);
 }
 
 // Results.

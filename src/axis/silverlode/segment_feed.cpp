@@ -6,17 +6,17 @@
 
 namespace interpolated_motion::axis {
 
-SegmentFeed::Source::Source(const trajectory::Path& p, const encoding::ImsEncoding& e,
-                            const encoding::ImsKnot& from)
-    : path(p), encoding(e), encoder(path, encoding, from) {}
+SegmentFeed::Source::Source(const trajectory::Path& p, const Manner& manner, const encoding::ImsKnot& from)
+    : path(p), encoding(manner.encoding), horizon(manner.horizon), encoder(path, encoding, from) {}
 
-void SegmentFeed::load(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
-                       std::int32_t start_counts, std::size_t depth) {
+void SegmentFeed::load(const trajectory::Path& path, const Manner& manner, std::int32_t start_counts,
+                       std::size_t depth) {
+  const encoding::ImsEncoding& encoding = manner.encoding;
   widest_ = encoding.bound_counts;
   shortest_ = encoding.min_segment_ticks * 8 / 10;
   start_goal_time_ = path.start_time();
   take(std::make_unique<Source>(
-      path, encoding,
+      path, manner,
       encoding::ImsKnot{0, start_goal_time_, interpolation::ims_at_rest(encoding.law(), start_counts)}));
   start_counts_ = start_counts;
   depth_ = depth;
@@ -39,32 +39,47 @@ void SegmentFeed::take(std::unique_ptr<Source> source) {
 // Encoded to its end before it is taken: what the drive is given always leads to rest. It begins a little
 // below the bound that was needed the last time, since bounds that are too narrow take the longest to be
 // refused.
-std::optional<Refusal> SegmentFeed::plan_way_on(const trajectory::Path& path, encoding::ImsEncoding encoding,
-                                                double widest) {
+std::optional<Refusal> SegmentFeed::plan_way_on(const trajectory::Path& path, Manner manner, double widest) {
+  encoding::ImsEncoding& encoding = manner.encoding;
   const encoding::ImsKnot& knot = source_->encoder.knot();
   encoding.bound_counts = std::max(encoding.bound_counts, source_->encoding.bound_counts / 2.0);
-  std::optional<Refusal> refusal = try_out(path, encoding, knot);
+  std::optional<Refusal> refusal = try_out(path, encoding, knot, way_on_ticks_);
   while (refusal && 2.0 * encoding.bound_counts <= widest) {
     encoding.bound_counts *= 2.0;
-    refusal = try_out(path, encoding, knot);
+    refusal = try_out(path, encoding, knot, way_on_ticks_);
   }
   if (refusal) return refusal;
-  way_on_ = std::make_unique<Source>(path, encoding, knot);
+  way_on_ = std::make_unique<Source>(path, manner, knot);
   widest_ = widest;
   return std::nullopt;
 }
 
 std::optional<Refusal> SegmentFeed::try_out(const trajectory::Path& path,
                                             const encoding::ImsEncoding& encoding,
-                                            const encoding::ImsKnot& from) {
+                                            const encoding::ImsKnot& from, std::vector<std::int64_t>& ticks) {
   encoding::ImsEncoder encoder(path, encoding, from);
+  ticks.clear();
   ImsSegment segment;
   encoding::ImsCertificate certificate;
   while (!encoder.finished()) {
     const auto more = encoder.next(segment, certificate);
     if (!more) return more.error();
+    ticks.push_back(segment.time);
   }
   return std::nullopt;
+}
+
+std::vector<double> SegmentFeed::way_on_begins(std::size_t before) const {
+  const double knot = knot_goal_time().count();
+  std::vector<double> begins;
+  const std::size_t kept = std::min(before, stretches_.size());
+  for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(kept); it != stretches_.end(); ++it)
+    begins.push_back(knot + tick_ * static_cast<double>(it->begin) - knot_end());
+  if (next_) begins.push_back(knot + tick_ * static_cast<double>(next_->begin) - knot_end());
+  begins.push_back(knot);
+  for (const std::int64_t ticks : way_on_ticks_)
+    begins.push_back(begins.back() + tick_ * static_cast<double>(ticks));
+  return begins;
 }
 
 void SegmentFeed::take_way_on() { take(std::move(way_on_)); }
@@ -85,7 +100,7 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
   while (refusal && 2.0 * source_->encoding.bound_counts <= widest_) {
     encoding::ImsEncoding wider = source_->encoding;
     wider.bound_counts *= 2.0;
-    take(std::make_unique<Source>(source_->path, wider, source_->encoder.knot()));
+    take(std::make_unique<Source>(source_->path, Manner{wider, horizon()}, source_->encoder.knot()));
     refusal = encode_next(rate, stretch);
   }
   // A shortest segment has time for the worst that a line may do at once: a goal under way is worth a part of
@@ -93,7 +108,7 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
   while (refusal && source_->encoding.min_segment_ticks > shortest_) {
     encoding::ImsEncoding shorter = source_->encoding;
     shorter.min_segment_ticks = std::max(shortest_, shorter.min_segment_ticks * 9 / 10);
-    take(std::make_unique<Source>(source_->path, shorter, source_->encoder.knot()));
+    take(std::make_unique<Source>(source_->path, Manner{shorter, horizon()}, source_->encoder.knot()));
     refusal = encode_next(rate, stretch);
   }
   if (refusal) return *refusal;

@@ -34,7 +34,8 @@ void AcceptedIsHeld::look(const Look& look) {
   if (ledger().is_disturbed()) return;
   if (look.snapshot->state == motion::GroupState::Fault)
     fail("the group is in fault though nothing went wrong: " + look.snapshot->fault);
-  if (!look_at_end || look.snapshot->state != motion::GroupState::Idle) return;
+  const motion::GroupState state = look.snapshot->state;
+  if (!look_at_end || (state != motion::GroupState::Idle && state != motion::GroupState::Standing)) return;
   for (const auto& [index, target] : ended_.target) {
     const Joint& joint = arm().joints[index];
     const double off = ((*look.positions)[index] - target) / joint.count();

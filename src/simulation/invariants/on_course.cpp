@@ -13,7 +13,9 @@ constexpr double kSlack = 0.5;
 }  // namespace
 
 void OnCourse::goal_ended(const GoalEntry& goal) {
-  if (goal.result->outcome == motion::GoalOutcome::Succeeded && !goal.is_stop) ended_ = goal.result->id;
+  if (goal.result->outcome != motion::GoalOutcome::Succeeded || goal.is_stop) return;
+  ended_ = goal.result->id;
+  met_motion_ = goal.met_motion;
 }
 
 void OnCourse::look(const Look& look) {
@@ -23,9 +25,10 @@ void OnCourse::look(const Look& look) {
   for (std::size_t i = 0; i < look.report->joints.size(); ++i) {
     const motion::JointReport& report = look.report->joints[i];
     const Joint& joint = arm().joints[i];
-    if (report.worst_deviation > joint.deviation_bound + kSlack)
+    const double bound = met_motion_ ? joint.joining_bound : joint.deviation_bound;
+    if (report.worst_deviation > bound + kSlack)
       fail(fmt::format("{} was {:.2f} counts off the path of goal {}, allowed {}", joint.label(),
-                       report.worst_deviation, ended_, joint.deviation_bound));
+                       report.worst_deviation, ended_, bound));
     if (report.underruns > 0)
       fail(fmt::format("{}: {} underruns in goal {}", joint.label(), report.underruns, ended_));
   }

@@ -7,7 +7,8 @@
 namespace interpolated_motion::simulation {
 
 /// Where nothing went wrong from outside, every drive sample of a goal that has succeeded was on its path
-/// within the deviation bound, by the driver's own report, and nothing ran dry or over.
+/// within the deviation bound, by the driver's own report, and nothing ran dry or over. A goal that has taken
+/// over in motion has the wider bound of streams.
 class OnCourse : public Invariant {
  public:
   explicit OnCourse(const Ledger& ledger) : Invariant(ledger) {}
@@ -18,6 +19,7 @@ class OnCourse : public Invariant {
 
  private:
   motion::GoalId ended_ = 0;
+  bool met_motion_ = false;
 };
 
 }  // namespace interpolated_motion::simulation

@@ -116,7 +116,7 @@ TEST(RecordFeed, WhatHasNotBeenSentCanBeReplaced) {
   EXPECT_EQ(feed.sent_knot().position, 500);
   encoding::PvtStream other;
   other.records = {{700, 3, 30}, {800, 0, 40}};
-  feed.replace_unsent(other);
+  feed.replace_unsent(other, {64, 0.1});
   EXPECT_EQ(feed.size(), 8u);
   EXPECT_EQ(feed.sent(), 5u);
   EXPECT_NEAR(feed.duration(), 0.170, 1e-12);
@@ -132,7 +132,7 @@ TEST(RecordFeed, CountsOnWhenOldRecordsAreForgotten) {
   feed.load(stream(10, 20), {64, 0.1});
   double elapsed = 0.0;
   for (std::size_t i = 0; i < 5000; ++i) {
-    feed.replace_unsent(stream(10, 20));
+    feed.replace_unsent(stream(10, 20), {64, 0.1});
     while (feed.next(elapsed, elapsed)) feed.mark_sent();
     ASSERT_FALSE(feed.all_sent());
     ASSERT_EQ(feed.played(elapsed + 0.01), i);

@@ -43,8 +43,11 @@ class StandstillAxis : public axis::Axis {
 
   std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
   GoalTime stream_lead() const override { return GoalTime{0.0}; }
-  HostTime committed() const override { return polled_; }
-  std::optional<Refusal> plan_follow(const trajectory::Path& path) override { return plan(path, {}); }
+  std::optional<GoalTime> committed() const override { return playback(polled_); }
+  std::optional<Refusal> plan_follow(const trajectory::Path& path, axis::Pace) override {
+    return plan(path, {});
+  }
+  std::vector<axis::RecordSlot> follow_slots() const override { return {}; }
   void follow() override { path_ = planned_; }
 
   GoalTime playback(HostTime when) const override;

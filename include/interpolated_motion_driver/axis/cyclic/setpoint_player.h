@@ -48,8 +48,9 @@ class SetpointPlayer final : public Player {
 
   std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
   GoalTime stream_lead() const override;
-  HostTime committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  std::optional<GoalTime> committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
+  std::vector<RecordSlot> follow_slots() const override { return {}; }
   void follow() override;
 
   GoalTime playback(HostTime when) const override;
@@ -88,6 +89,7 @@ class SetpointPlayer final : public Player {
   trajectory::Path path_;
   std::optional<HostTime> stream_origin_;
   HostTime begin_ = kNever;
+  HostTime origin_{};  ///< of goal time 0, once begin_ is known
   bool finished_ = false;
 
   std::uint64_t sent_ = 0;

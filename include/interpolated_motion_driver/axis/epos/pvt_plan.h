@@ -29,10 +29,17 @@ Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajecto
 Expected<PvtPlan, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime origin, GoalTime rest,
                                              std::int32_t rest_counts);
 
-/// The way on of a stream along `rest`, from `knot` on. With the bound of a goal, doubled as often as it
-/// takes up to `stream_deviation_bound`: the knot was chosen for another way on.
-Expected<encoding::PvtStream, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
-                                                       const encoding::PvtKnot& knot);
+/// What comes behind the records that have been sent, when the path has changed.
+struct PvtWayOn {
+  encoding::PvtStream stream;  ///< from the knot where those lead
+  FeedLimits limits;           ///< with which it is fed
+  double rate = 1.0;           ///< goal seconds per second of the drive's clock
+};
+
+/// The way on along `rest`, from `knot` on, at rate 1. With the bound of a goal, doubled as often as it takes
+/// up to `stream_deviation_bound`: the knot was chosen for another way on.
+Expected<PvtWayOn, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
+                                            const encoding::PvtKnot& knot, Pace pace);
 
 /// How far ahead of the present a stream is committed, at most.
 GoalTime pvt_stream_lead(const EposDevice& drive);

@@ -50,8 +50,9 @@ class PvtPlayer final : public Player {
 
   std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
   GoalTime stream_lead() const override { return pvt_stream_lead(drive_); }
-  HostTime committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  std::optional<GoalTime> committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
+  std::vector<RecordSlot> follow_slots() const override;
   void follow() override;
 
   GoalTime playback(HostTime when) const override { return goal_time_at(clock_.elapsed(when)); }
@@ -83,6 +84,7 @@ class PvtPlayer final : public Player {
   void enter(Phase phase, HostTime now);
   bool is_playing() const { return phase_ == Phase::Armed || phase_ == Phase::Moving; }
   void start_clock();
+  double sent_until() const;  ///< s on the drive's clock
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   void start_emptying(HostTime now);
@@ -99,8 +101,8 @@ class PvtPlayer final : public Player {
   GoalTimeline timeline_;
   GoalTime wait_{0.0};  ///< from the start signal to the path's start
   std::optional<HostTime> stream_origin_;
-  encoding::PvtStream way_on_;  ///< of plan_follow()
-  double way_on_rate_ = 1.0;
+  HostTime origin_{};  ///< of goal time 0, once the clock runs
+  PvtWayOn way_on_;    ///< of plan_follow()
   PlaybackClock clock_;
   bool finished_ = false;
 

@@ -47,7 +47,7 @@ class RecordFeed {
   encoding::PvtKnot sent_knot() const;
   /// The records not yet sent are replaced by those of `stream`, which sets out from sent_knot(). Not once
   /// all_sent().
-  void replace_unsent(const encoding::PvtStream& stream);
+  void replace_unsent(const encoding::PvtStream& stream, const FeedLimits& limits);
 
   /// Records of the plan and of them those sent, the one with time 0 and the forgotten ones included;
   /// duration(): s on the drive's clock from the start to the last record, 0 without records.
@@ -67,8 +67,8 @@ class RecordFeed {
   std::int32_t start_position() const { return start_position_; }  ///< counts
   std::int32_t final_position() const;                             ///< counts
 
-  /// When each record may and must cross the bus, `start` being the goal time at which the drive starts. Of a
-  /// plan of which nothing has been sent.
+  /// When each record that has not been sent may and must cross the bus; `start`: goal time at which the
+  /// drive starts, or would have started if it had always gone as fast as now.
   std::vector<RecordSlot> slots(GoalTime start) const;
 
  private:

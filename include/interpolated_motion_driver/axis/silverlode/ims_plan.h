@@ -56,6 +56,13 @@ Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& paramet
                                          const SegmentDelivery& delivery, const silverlode::LineMaster& line,
                                          const trajectory::Path& path, std::int32_t rest_counts);
 
+/// The records of segments that begin at `begins`, s, to be sent to a drive in motion that has the first
+/// `sent` of them already; `start`: goal time of 0 s.
+std::vector<RecordSlot> ims_slots_in_motion(const SilverlodeAxisParameters& parameters,
+                                            const SegmentDelivery& delivery,
+                                            const std::vector<double>& begins, std::size_t sent,
+                                            GoalTime start);
+
 /// How far ahead of the present a stream is committed, at most.
 GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
                          const silverlode::LineMaster& line);

@@ -58,8 +58,9 @@ class ImsPlayer final : public SegmentPlayer {
 
   std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
   GoalTime stream_lead() const override { return ims_stream_lead(parameters_, *delivery_, stage_.line()); }
-  HostTime committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path) override;
+  std::optional<GoalTime> committed() const override;
+  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
+  std::vector<RecordSlot> follow_slots() const override;
   void follow() override { feed_.take_way_on(); }
 
   GoalTime playback(HostTime when) const override { return stream_begin_ + playback_of_feed(when); }
@@ -88,7 +89,6 @@ class ImsPlayer final : public SegmentPlayer {
   void poll_moving(HostTime now);
   void poll_ending(HostTime now);
   void begin_motion(HostTime now);
-  void feed(HostTime now);
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   GoalTime playback_of_feed(HostTime when) const;

@@ -23,18 +23,26 @@ namespace interpolated_motion::axis {
 /// executed while as many as the queue is deep wait: "full" is known before it happens.
 class SegmentFeed {
  public:
+  /// How a path is encoded, and how much of it is wanted in the drive.
+  struct Manner {
+    encoding::ImsEncoding encoding;
+    double horizon = 0.5;  ///< s
+  };
+
   /// Begins anew, nothing sent. `depth`: places of the drive's queue, >= 1. Throws as
   /// encoding::ImsEncoding::validate().
-  void load(const trajectory::Path& path, const encoding::ImsEncoding& encoding, std::int32_t start_counts,
-            std::size_t depth);
+  void load(const trajectory::Path& path, const Manner& manner, std::int32_t start_counts, std::size_t depth);
   /// Whether there has been a load(): path(), next() and all that tells of knots need one before.
   bool loaded() const { return source_ != nullptr; }
 
   /// Encodes the way on along `path`, which is the former one up to knot_goal_time(): with the bound of
-  /// `encoding`, doubled as often as it takes, up to `widest` counts. Refused when it cannot be followed even
+  /// `manner`, doubled as often as it takes, up to `widest` counts. Refused when it cannot be followed even
   /// so; then the feed is as it was. Not when ending().
-  std::optional<Refusal> plan_way_on(const trajectory::Path& path, encoding::ImsEncoding encoding,
-                                     double widest);
+  std::optional<Refusal> plan_way_on(const trajectory::Path& path, Manner manner, double widest);
+  /// When the segments of that way begin, in goal time, the one that ends the motion included; in front of
+  /// them those of the last `before` segments of the former way.
+  std::vector<double> way_on_begins(std::size_t before) const;
+  std::size_t way_on_size() const { return way_on_ticks_.size() + 1; }  ///< segments, the last one included
   /// Takes the way planned last by plan_way_on(), when no segment has been encoded since.
   void take_way_on();
 
@@ -82,6 +90,7 @@ class SegmentFeed {
   GoalTime goal_time_at(double drive_seconds) const;
   /// The one that is encoded now.
   const trajectory::Path& path() const;
+  double horizon() const { return source_->horizon; }            ///< s of motion wanted in the drive
   GoalTime start_goal_time() const { return start_goal_time_; }  ///< when the drive leaves its waiting
   std::int32_t final_counts() const { return final_counts_; }    ///< where it ends, rounded
 
@@ -97,16 +106,17 @@ class SegmentFeed {
   /// The path and its encoder, which refers to it.
   struct Source {
     /// Takes copies; encodes on from `from`. Not copied itself, since `encoder` refers to `path`.
-    Source(const trajectory::Path& p, const encoding::ImsEncoding& e, const encoding::ImsKnot& from);
+    Source(const trajectory::Path& p, const Manner& manner, const encoding::ImsKnot& from);
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
     trajectory::Path path;           ///< rad or m over goal time
     encoding::ImsEncoding encoding;  ///< with the bound that is in force
+    double horizon;                  ///< s
     encoding::ImsEncoder encoder;    ///< where the segments given out so far lead
   };
 
   static std::optional<Refusal> try_out(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
-                                        const encoding::ImsKnot& from);
+                                        const encoding::ImsKnot& from, std::vector<std::int64_t>& ticks);
   std::optional<Refusal> encode_next(double rate, Stretch& stretch);
   void take(std::unique_ptr<Source> source);
   std::size_t executing(double elapsed) const;
@@ -120,7 +130,8 @@ class SegmentFeed {
 
   std::unique_ptr<Source> source_;
   std::unique_ptr<Source> way_on_;
-  double widest_ = 0.0;        ///< counts, up to where the bound may be doubled
+  std::vector<std::int64_t> way_on_ticks_;  ///< of its segments, at rate 1
+  double widest_ = 0.0;                     ///< counts, up to where the bound may be doubled
   std::int64_t shortest_ = 0;  ///< ticks, down to which a segment may be short where none else is found
   GoalTime start_goal_time_{0.0};
   std::int32_t start_counts_ = 0;

@@ -15,7 +15,7 @@ struct SilverlodeAxisParameters : AxisParameters {
   double deviation_bound = 2.0;           ///< counts, at any servo tick
   double stream_deviation_bound = 500.0;  ///< counts, up to which it may be doubled in a stream of setpoints
   double limit_margin = 1.2;    ///< segments may exceed the joint's acceleration by this factor between knots
-  double commit_horizon = 2.0;  ///< s of motion kept in the drive's queue
+  double commit_horizon = 0.5;  ///< s of motion kept in the drive's queue
   double stream_horizon = 0.1;  ///< the same, while setpoints are followed
   double line_share = 0.85;     ///< of the line's time that segments may fill, above 0 to 1
   double start_lead = 0.3;      ///< s from arm() to the begin of the path

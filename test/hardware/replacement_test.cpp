@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenario.h"
+
+namespace interpolated_motion::test {
+namespace {
+
+using motion::GoalOutcome;
+using motion::GroupState;
+
+constexpr double kMaxVelocity = 3.5;       // rad/s, of every joint of these arms
+constexpr double kMaxAcceleration = 20.0;  // rad/s^2
+constexpr double kInterval = 0.02;         // s, over which differences are taken
+
+int cases() {
+  const char* text = std::getenv("IMD_PROPERTY_CASES");
+  return text == nullptr ? 40 : std::atoi(text);
+}
+
+/// Uniform in [low, high), the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double number(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+struct Kind {
+  const char* name;
+  YAML::Node (*arm)(const std::string&);
+};
+
+const Kind kKinds[] = {{"epos", six_axis},
+                       {"silverlode", six_axis_silverlode},
+                       {"cyclic", six_axis_cyclic},
+                       {"all_kinds", six_axis_of_all_kinds}};
+
+/// What the demand of one joint does, by differences over kInterval.
+class Watch {
+ public:
+  void take(double time, double position) {
+    if (known_ > 0 && time - time_ < kInterval) return;
+    if (known_ > 0) {
+      const double velocity = (position - position_) / (time - time_);
+      fastest_ = std::max(fastest_, std::abs(velocity));
+      if (known_ > 1) hardest_ = std::max(hardest_, std::abs(velocity - velocity_) / (time - time_));
+      velocity_ = velocity;
+    }
+    ++known_;
+    time_ = time;
+    position_ = position;
+  }
+  double fastest() const { return fastest_; }
+  double hardest() const { return hardest_; }
+
+ private:
+  int known_ = 0;
+  double time_ = 0.0;
+  double position_ = 0.0;
+  double velocity_ = 0.0;
+  double fastest_ = 0.0;
+  double hardest_ = 0.0;
+};
+
+/// All joints to somewhere else, so slowly that it is possible from most states of motion.
+trajectory::Goal random_goal(Random& random, const std::vector<double>& present, double effort) {
+  trajectory::Goal goal;
+  trajectory::Waypoint point;
+  double duration = 0.4;
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    goal.joint_names.push_back("joint" + std::to_string(i + 1));
+    const double target = random.number(-1.5, 1.5);
+    const double distance = std::abs(target - present[i]);
+    point.positions.push_back(target);
+    duration = std::max({duration, 1.875 * distance / (effort * kMaxVelocity),
+                         std::sqrt(10.0 / std::sqrt(3.0) * distance / (effort * kMaxAcceleration))});
+  }
+  point.time = GoalTime{duration};
+  point.velocities.assign(present.size(), 0.0);
+  point.accelerations.assign(present.size(), 0.0);
+  goal.points = {point};
+  return goal;
+}
+
+class Replacement : public ::testing::TestWithParam<Kind> {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
+    scenario.driver().set_motion_observer([this](std::size_t joint, const emulation::DemandSample& sample) {
+      if (counts.empty()) return;
+      watches[joint].take(seconds(sample.time.time_since_epoch()), sample.demand * counts[joint]);
+    });
+  }
+
+  Scenario scenario{GetParam().arm("")};
+  std::vector<double> counts;  ///< rad in one, of each joint
+  std::vector<Watch> watches = std::vector<Watch>(6);
+};
+
+// Goals over goals at any instant: whatever is accepted in motion is joined without a stop, within the limits
+// and to its end; whatever is refused changes nothing.
+TEST_P(Replacement, IsOneMotion) {
+  Random random(1);
+  int joined = 0;
+  double longest_wait = 0.0;
+  auto goal = scenario.submit(random_goal(random, scenario.positions(), 0.6));
+  ASSERT_TRUE(goal) << goal.error().text;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+  for (const auto& joint : scenario.driver().report().joints) counts.push_back(joint.count);
+  for (int i = 0; i < cases(); ++i) {
+    const double until = random.number(0.05, 0.8);
+    scenario.run_until([&] { return scenario.state() != GroupState::Moving; }, until);
+    const bool moving = scenario.state() == GroupState::Moving;
+    const double left = (scenario.snapshot().goal_duration - scenario.snapshot().goal_time).count();
+    auto next = scenario.submit(random_goal(random, scenario.positions(), 0.35));
+    if (!next) continue;
+    if (moving && left > 1.2) {
+      EXPECT_EQ(scenario.state(), GroupState::Moving) << i;
+      longest_wait = std::max(longest_wait, -scenario.snapshot().goal_time.count());
+      EXPECT_EQ(scenario.result_of(goal.value().id, 0.02).outcome, GoalOutcome::Preempted) << i;
+      ++joined;
+    }
+    goal = next;
+    ASSERT_TRUE(scenario.run_until_state(GroupState::Moving)) << i << ": " << scenario.snapshot().fault;
+  }
+  const auto result = scenario.result_of(goal.value().id);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  EXPECT_GE(joined, cases() / 4);
+  double fastest = 0.0;
+  double hardest = 0.0;
+  for (const Watch& watch : watches) {
+    fastest = std::max(fastest, watch.fastest());
+    hardest = std::max(hardest, watch.hardest());
+  }
+  EXPECT_LE(fastest, 1.01 * kMaxVelocity);
+  EXPECT_LE(hardest, 1.05 * kMaxAcceleration);
+  for (const auto& joint : scenario.driver().report().joints)
+    EXPECT_LE(joint.worst_deviation, 8.0) << joint.joint;
+  std::printf("%s: %d of %d joined, %.2f s until the join at most, %.2f rad/s, %.2f rad/s^2\n",
+              GetParam().name, joined, cases(), longest_wait, fastest, hardest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Replacement, ::testing::ValuesIn(kKinds),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace interpolated_motion::test
