@@ -34,9 +34,9 @@ const Arm kArms[] = {
     {"EPOS2, commit_horizon 2", [] { return six_axis("{commit_horizon: 2}"); }, 1.0, 2.0},
     {"EPOS2, commit_horizon 6", [] { return six_axis("{commit_horizon: 6}"); }, 1.0, 6.0},
     {"EPOS2, commit_horizon 0.5", [] { return six_axis("{commit_horizon: 0.5}"); }, 1.0, 0.5},
-    {"SilverLode, 8 deep", [] { return silverlode_with_queue_of(8); }, 2.0, 2.0},
-    {"SilverLode, 4 deep", [] { return silverlode_with_queue_of(4); }, 2.0, 2.0},
-    {"EPOS2 and SilverLode", [] { return six_axis_mixed(); }, 2.0, 2.0},
+    {"SilverLode, 8 deep", [] { return silverlode_with_queue_of(8); }, 2.0, 0.5},
+    {"SilverLode, 4 deep", [] { return silverlode_with_queue_of(4); }, 2.0, 0.5},
+    {"EPOS2 and SilverLode", [] { return six_axis_mixed(); }, 2.0, 0.5},
     {"cyclic", [] { return six_axis_cyclic(); }, 5.0, 2.0},
 };
 

@@ -63,8 +63,25 @@ ImsPlayer::ImsPlayer(SilverlodePowerStage& stage, LineStart* common_start)
 
 bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   if (!delivery_->owns(outcome)) return start_.take(outcome);
-  if (const auto failure = delivery_->take(outcome, now)) stage_.fail(*failure, now);
+  const std::size_t before = delivery_->delivered();
+  auto failure = delivery_->take(outcome, now);
+  if (!failure) failure = came_too_late(before, outcome);
+  if (failure) stage_.fail(*failure, now);
   return true;
+}
+
+/// A drive whose queue has run dry leaves the interpolated motion and takes what comes afterwards all the
+/// same.
+std::optional<std::string> ImsPlayer::came_too_late(std::size_t first, const Outcome& outcome) {
+  if (phase_ != Phase::Moving || delivery_->delivered() <= first || !outcome.accepted()) return std::nullopt;
+  const double late = clock_.least_elapsed(outcome.request_end) - feed_.begin_of(first);
+  if (late <= 0.0) return std::nullopt;
+  ++underruns_;
+  return fmt::format(
+      "its queue ran dry: a segment got over the line {:.3f} s after the one before had ended. {:.3f} s of "
+      "motion "
+      "are kept in the drive (commit_horizon): make it longer than the line is disturbed",
+      late, feed_.horizon());
 }
 
 void ImsPlayer::begin(HostTime now) {

@@ -174,21 +174,23 @@ class StrangeLines : public FaultInMotion, public testing::WithParamInterface<St
 
 // Ten times in a goal, on a line whose wires are apart: what the drives receive is as it was sent. Mostly
 // they meet the silence between two exchanges or garble an answer that is asked for again; where they garble
-// the answer to a segment, the group stops and says so.
+// the answer to a segment, the group stops and says so. Of three goals one at least does not begin with that.
 TEST_P(StrangeLines, AreToldAndNeverTakenForAnAnswer) {
-  move(six_axis_silverlode("{buses: {line0: {wiring: rs232}}}"), 0.5);
-  for (int i = 0; i < 10 && scenario->state() == GroupState::Moving; ++i) {
-    inject("line0", "garbage " + GetParam().text);
-    scenario->run(0.2 + 0.0037 * i);
-  }
-  const auto result = scenario->result_of(goal);
-  for (const auto& joint : scenario->driver().report().joints)
-    EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
-  if (result.outcome != GoalOutcome::Succeeded) {
-    EXPECT_TRUE(contains(result.text, "cannot be known")) << result.text;
-  }
   bool told = false;
-  for (const std::string& line : scenario->log()) told = told || contains(line, GetParam().in_the_log);
+  for (const double start : {0.45, 0.5, 0.55}) {
+    move(six_axis_silverlode("{buses: {line0: {wiring: rs232}}}"), start);
+    for (int i = 0; i < 10 && scenario->state() == GroupState::Moving; ++i) {
+      inject("line0", "garbage " + GetParam().text);
+      scenario->run(0.2 + 0.0037 * i);
+    }
+    const auto result = scenario->result_of(goal);
+    for (const auto& joint : scenario->driver().report().joints)
+      EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
+    if (result.outcome != GoalOutcome::Succeeded) {
+      EXPECT_TRUE(contains(result.text, "cannot be known")) << result.text;
+    }
+    for (const std::string& line : scenario->log()) told = told || contains(line, GetParam().in_the_log);
+  }
   EXPECT_TRUE(told);
 }
 
