@@ -61,7 +61,7 @@ Expected<GoalAcceptance, Refusal> Group::join(const trajectory::Goal& goal, Goal
   in_force_since_ = std::max(in_force_since_, now - host_duration(kKept.count()));
   follow(std::move(paths));
   enter(GroupState::Moving);
-  return GoalAcceptance{active_->id, active_->lead_in + active_->duration, plan.value().warnings};
+  return GoalAcceptance{active_->id, *active_->end - present, plan.value().warnings};
 }
 
 /// All joints rest until the drives are to leave their interpolation, in one instant. Joints that the goal

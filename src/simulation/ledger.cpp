@@ -23,7 +23,7 @@ constexpr HostDuration kUntilNoticed = std::chrono::milliseconds(100);
 double Ledger::patience() const { return disturbed_ ? kDisturbed + arm_.commit_horizon : 0.0; }
 
 void Ledger::accept(motion::GoalId id, GoalEntry entry) {
-  entry.due += host_duration(patience());
+  entry.due += host_duration(patience() + (entry.met_motion ? arm_.commit_horizon : 0.0));
   goals_[id] = std::move(entry);
 }
 
@@ -36,7 +36,9 @@ void Ledger::interrupt(motion::GoalId id, const std::string& verb, HostTime now)
   const auto found = goals_.find(id);
   if (found == goals_.end() || found->second.result || !found->second.ended_by.empty()) return;
   found->second.ended_by = verb;
-  found->second.due = std::min(found->second.due, now + host_duration(kStopping + patience()));
+  const double committed =
+      verb == "goal" ? arm_.commit_horizon : 0.0;  // it may end there, and not be stopped
+  found->second.due = std::min(found->second.due, now + host_duration(committed + kStopping + patience()));
 }
 
 void Ledger::request(motion::RequestId id, const std::string& verb, HostTime now) {

@@ -94,7 +94,11 @@ Path splice(const Path& path, GoalTime begin, GoalTime end, const Path& rest) {
     const double position = path.sample(from).position;
     pieces.push_back({from, end, Polynomial{{position, 0.0, 0.0, 0.0, 0.0, 0.0}}});
   }
-  return then(std::move(pieces), rest);
+  const std::size_t own = pieces.size();
+  pieces.insert(pieces.end(), rest.pieces().begin(), rest.pieces().end());
+  if (pieces.empty()) return rest;
+  if (own < pieces.size()) pieces[own].start = end;  // which it is but for rounding
+  return Path(std::move(pieces));
 }
 
 }  // namespace interpolated_motion::trajectory

@@ -99,6 +99,17 @@ TEST(Splice, KeepsThePastAndGoesOnWithTheRest) {
   EXPECT_EQ(splice(path, at(1.2), at(1.5), rest).start_time(), at(1));
 }
 
+// Times that are made by adding the same numbers in another order are not the same.
+TEST(Splice, TakesARestThatStartsThereButForRounding) {
+  const GoalTime end = at(0.1) + at(0.2);
+  ASSERT_NE(end, at(0.3));
+  const Path first({{at(0.0), at(1.0), Polynomial{{0.0, 1.0}}}});
+  const Path rest({{at(0.3), at(2.0), Polynomial{{5.0, 1.0}}}});
+  const Path spliced = splice(first, at(0.0), end, rest);
+  EXPECT_EQ(spliced.pieces()[1].start, end);
+  EXPECT_EQ(spliced.sample(at(2.0)).position, 6.7);
+}
+
 TEST(Splice, RestsWhereThePathHasEndedBefore) {
   const Path path({{at(0), at(1), {{0.0, 1.0}}}});
   const Path rest({{at(5), at(6), {{1.0, 2.0}}}});

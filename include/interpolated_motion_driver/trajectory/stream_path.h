@@ -42,7 +42,7 @@ Path with_rest(const Path& path, GoalTime duration);
 Path shifted(const Path& path, GoalTime by);
 
 /// The pieces of `path` from those at `begin` on, cut off at `end`, and `rest` behind, which must start there
-/// where the path has not ended before.
+/// (but for rounding).
 Path splice(const Path& path, GoalTime begin, GoalTime end, const Path& rest);
 
 }  // namespace interpolated_motion::trajectory

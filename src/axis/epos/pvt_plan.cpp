@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "interpolated_motion_driver/axis/epos/fifo_watch.h"
+#include "interpolated_motion_driver/encoding/record_range.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 
 namespace interpolated_motion::axis {
@@ -29,6 +30,12 @@ double horizon(const EposDevice& drive, double wanted) {
   return std::max(wanted, seconds(noticed));
 }
 
+/// A record is committed as a whole, and kLeastAhead of them are kept in the drive.
+std::int64_t longest_record(double commit_horizon) {
+  const double fits = 1e3 * commit_horizon / static_cast<double>(RecordFeed::kLeastAhead);
+  return std::clamp(static_cast<std::int64_t>(fits), kLongestRecord, encoding::kMaxRecordTime);
+}
+
 encoding::PvtEncoding goal_encoding(const EposDevice& drive) {
   const EposAxisParameters& parameters = drive.parameters();
   const EposFacts& facts = drive.facts();
@@ -39,6 +46,7 @@ encoding::PvtEncoding goal_encoding(const EposDevice& drive) {
   encoding.bound_counts = parameters.deviation_bound;
   encoding.max_motor_rpm = facts.max_velocity * facts.velocity_unit_rpm();
   encoding.max_motor_acceleration = facts.max_acceleration;
+  encoding.max_record_ms = longest_record(parameters.commit_horizon);
   return encoding;
 }
 

@@ -7,11 +7,18 @@ namespace interpolated_motion::axis {
 
 namespace {
 
-/// Longest segment of a stream, as multiple of the shortest one: a segment is committed as a whole.
+/// Longest segment of a stream, and least that the longest one of a goal may have, as multiple of the
+/// shortest one: a segment is committed as a whole.
 constexpr std::int64_t kLongest = 2;
 /// Of the bound, the part with which a goal must be possible where segments may not be short: it is encoded
 /// again as it is played, at the rate of the drive's crystal, and then other segments must be found.
 constexpr double kTried = 0.95;
+
+/// Ticks: a segment is committed as a whole, and kLeastAhead of them are kept in the drive.
+std::int64_t longest_segment(const SilverlodeAxisParameters& parameters) {
+  const double fits = parameters.commit_horizon / static_cast<double>(kLeastAhead) / parameters.scale.tick;
+  return static_cast<std::int64_t>(fits);
+}
 
 // A segment must be there when the one before it has been executed.
 std::vector<RecordSlot> slots_of(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
@@ -44,6 +51,8 @@ encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& paramete
   const auto shortest =
       static_cast<std::int64_t>(std::ceil(delivery.shortest_segment() / parameters.scale.tick));
   encoding.min_segment_ticks = std::max(encoding.min_segment_ticks, shortest);
+  encoding.max_segment_ticks = std::max(std::min(encoding.max_segment_ticks, longest_segment(parameters)),
+                                        kLongest * encoding.min_segment_ticks);
   return encoding;
 }
 

@@ -30,12 +30,14 @@ void StillWithoutOrder::look(const Look& look) {
     rest_ = *look.positions;
     return;
   }
+  // The drives still play the end of their course, within its bound.
+  const bool is_standing = ledger().state() == GroupState::Standing;
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     const Joint& joint = arm().joints[i];
     const double moved = ((*look.positions)[i] - rest_[i]) / joint.count();
     if (ledger().is_touched(i, look.now, kRecovery)) {
       rest_[i] = (*look.positions)[i];
-    } else if (std::abs(moved) > kCounts) {
+    } else if (std::abs(moved) > kCounts + (is_standing ? joint.joining_bound : 0.0)) {
       fail(fmt::format("{} has moved by {:.0f} counts while the group is {}", joint.label(), moved,
                        motion::to_string(ledger().state())));
     }
