@@ -47,6 +47,7 @@ void StillWithoutOrder::look(const Look& look) {
 void StillWithoutOrder::state_change(HostTime) {
   const GroupState state = ledger().state();
   const GroupState former = ledger().former_state();
+  if (former == GroupState::Standing) rest_since_ = kNever;  // the drives have landed where their records end
   const bool moves =
       state == GroupState::Preparing || state == GroupState::Moving || state == GroupState::Streaming;
   if (!moves || !is_at_rest(former)) return;
