@@ -17,7 +17,6 @@ bool fits(const KnownFault& fault, const Violation& violation) {
 
 const std::vector<KnownFault>& known_faults() {
   static const std::vector<KnownFault> faults{
-      {"a bad goal is accepted in motion", "refused at once", {"a goal was accepted"}, "S8, issue 15"},
       {"an accepted replacement is aborted",
        "accepted is held",
        {"The goal replaced another one"},

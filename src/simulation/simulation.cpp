@@ -229,11 +229,14 @@ void Simulation::submit(const Event& event) {
 void Simulation::accept(const Event& event, const trajectory::Goal& goal,
                         const motion::GoalAcceptance& acceptance) {
   ++outcome_.goals_accepted;
-  const GoalDefect defect = defect_of(event);
-  if (defect != GoalDefect::None)
-    for (const auto& invariant : invariants_) invariant->wrongly_accepted(why_bad(defect));
   GoalEntry entry;
-  entry.met_motion = ledger_.has_open_goal() || !is_at_rest(snapshot_.state);
+  entry.met_motion = ledger_.has_open_goal() || !is_at_rest(snapshot_.state) ||
+                     snapshot_.state == motion::GroupState::Standing;
+  // Points in the past are left out, as is one at the time 0 of a goal that joins a motion.
+  const bool leaves_out_start = entry.met_motion || (goal.start && *goal.start < now_);
+  const GoalDefect defect = defect_of(event);
+  if (defect != GoalDefect::None && !(defect == GoalDefect::StartElsewhere && leaves_out_start))
+    for (const auto& invariant : invariants_) invariant->wrongly_accepted(why_bad(defect));
   ledger_.interrupt("goal", now_);
   const double wait = goal.start ? std::max(0.0, seconds(*goal.start - now_)) : 0.0;
   entry.accepted = now_;
