@@ -40,6 +40,10 @@ void Group::sample_feedback() {
     const axis::AxisFeedback& feedback = axes_[i]->feedback();
     actual_[i] = without_acceleration(feedback.position, feedback.velocity);
     desired_[i] = desired(i, feedback.time);
+    if (plays_course() && feedback.mean_over > HostDuration{}) {
+      const double before = desired(i, feedback.time - feedback.mean_over).position;
+      desired_[i].velocity = (desired_[i].position - before) / seconds(feedback.mean_over);
+    }
   }
 }
 

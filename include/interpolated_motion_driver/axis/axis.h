@@ -39,6 +39,8 @@ struct AxisFeedback {
   HostTime time{};        ///< of the latching, on the host's clock; the epoch: no report yet
   double position = 0.0;  ///< rad
   double velocity = 0.0;  ///< rad/s
+  /// The velocity is the mean over so much time before `time`; 0: that of the instant.
+  HostDuration mean_over{};
 };
 
 /// What is published of an axis besides its feedback.

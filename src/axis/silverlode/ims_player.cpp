@@ -340,7 +340,7 @@ std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path, Pace
   const trajectory::Path own = trajectory::shifted(path, GoalTime{0.0} - stream_begin_);
   const auto encoding = pace == Pace::Goal ? ims_goal_encoding(parameters_, *delivery_)
                                            : ims_stream_encoding(parameters_, *delivery_, stage_.line());
-  return feed_.plan_way_on(own, {encoding, horizon_of(parameters_, pace)},
+  return feed_.plan_way_on(own, {encoding, horizon_of(parameters_, pace), pace == Pace::Goal},
                            parameters_.stream_deviation_bound);
 }
 

@@ -40,32 +40,16 @@ void SegmentFeed::take(std::unique_ptr<Source> source) {
 // below the bound that was needed the last time, since bounds that are too narrow take the longest to be
 // refused.
 std::optional<Refusal> SegmentFeed::plan_way_on(const trajectory::Path& path, Manner manner, double widest) {
-  encoding::ImsEncoding& encoding = manner.encoding;
   const encoding::ImsKnot& knot = source_->encoder.knot();
-  encoding.bound_counts = std::max(encoding.bound_counts, source_->encoding.bound_counts / 2.0);
-  std::optional<Refusal> refusal = try_out(path, encoding, knot, way_on_ticks_);
-  while (refusal && 2.0 * encoding.bound_counts <= widest) {
-    encoding.bound_counts *= 2.0;
-    refusal = try_out(path, encoding, knot, way_on_ticks_);
-  }
-  if (refusal) return refusal;
+  const double first = source_->encoding.bound_counts / 2.0;
+  const auto plan = manner.comes_close ? plan_ims_approach : plan_ims_way_on;
+  auto approach = plan(path, manner.encoding, knot, first, widest);
+  if (!approach) return approach.error();
+  manner.encoding.bound_counts = approach.value().bound;
   way_on_ = std::make_unique<Source>(path, manner, knot);
+  way_on_->bounds = std::move(approach.value().bounds);
+  way_on_ticks_ = std::move(approach.value().ticks);
   widest_ = widest;
-  return std::nullopt;
-}
-
-std::optional<Refusal> SegmentFeed::try_out(const trajectory::Path& path,
-                                            const encoding::ImsEncoding& encoding,
-                                            const encoding::ImsKnot& from, std::vector<std::int64_t>& ticks) {
-  encoding::ImsEncoder encoder(path, encoding, from);
-  ticks.clear();
-  ImsSegment segment;
-  encoding::ImsCertificate certificate;
-  while (!encoder.finished()) {
-    const auto more = encoder.next(segment, certificate);
-    if (!more) return more.error();
-    ticks.push_back(segment.time);
-  }
   return std::nullopt;
 }
 
@@ -94,13 +78,14 @@ void SegmentFeed::wait(std::int64_t ticks) {
 
 Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
   if (next_) return next_->segment;
+  take_bound();
   Stretch stretch{end_tick_, 0, knot_goal_time(), rate, {}};
   std::optional<Refusal> refusal = encode_next(rate, stretch);
   // At another rate than it was tried out with, a way on may become too narrow.
   while (refusal && 2.0 * source_->encoding.bound_counts <= widest_) {
     encoding::ImsEncoding wider = source_->encoding;
     wider.bound_counts *= 2.0;
-    take(std::make_unique<Source>(source_->path, Manner{wider, horizon()}, source_->encoder.knot()));
+    encode_as(wider);
     refusal = encode_next(rate, stretch);
   }
   // A shortest segment has time for the worst that a line may do at once: a goal under way is worth a part of
@@ -108,12 +93,32 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
   while (refusal && source_->encoding.min_segment_ticks > shortest_) {
     encoding::ImsEncoding shorter = source_->encoding;
     shorter.min_segment_ticks = std::max(shortest_, shorter.min_segment_ticks * 9 / 10);
-    take(std::make_unique<Source>(source_->path, Manner{shorter, horizon()}, source_->encoder.knot()));
+    encode_as(shorter);
     refusal = encode_next(rate, stretch);
   }
   if (refusal) return *refusal;
   next_ = stretch;
   return stretch.segment;
+}
+
+/// What is left of the path is encoded in another way, from the knot on.
+void SegmentFeed::encode_as(const encoding::ImsEncoding& encoding) {
+  Manner manner{encoding, horizon()};
+  auto source = std::make_unique<Source>(source_->path, manner, source_->encoder.knot());
+  source->bounds = std::move(source_->bounds);
+  take(std::move(source));
+}
+
+/// The bound that was planned for what begins at the knot.
+void SegmentFeed::take_bound() {
+  std::optional<double> bound;
+  auto& bounds = source_->bounds;
+  for (; !bounds.empty() && bounds.front().time <= knot_goal_time(); bounds.pop_front())
+    bound = bounds.front().counts;
+  if (!bound) return;
+  encoding::ImsEncoding encoding = source_->encoding;
+  encoding.bound_counts = *bound;
+  encode_as(encoding);
 }
 
 std::optional<Refusal> SegmentFeed::encode_next(double rate, Stretch& stretch) {

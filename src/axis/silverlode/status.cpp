@@ -102,6 +102,7 @@ void SilverlodeStatus::take_position(const Outcome& outcome) {
   const bool recent = passed > 0.0 && passed < 0.5;
   const double moved = static_cast<double>(*counts) - static_cast<double>(actual_counts_);
   feedback_.velocity = recent ? transmission_.joint_velocity(moved / passed) : 0.0;
+  feedback_.mean_over = recent ? outcome.request_end - feedback_.time : HostDuration{};
   feedback_.position = transmission_.joint_position(*counts);
   feedback_.time = outcome.request_end;
   actual_counts_ = *counts;

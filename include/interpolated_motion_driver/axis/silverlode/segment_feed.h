@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "interpolated_motion_driver/axis/silverlode/ims_approach.h"
 #include "interpolated_motion_driver/encoding/ims/ims_encoder.h"
 #include "interpolated_motion_driver/interpolation/ims_segment.h"
 #include "interpolated_motion_driver/trajectory/path.h"
@@ -26,7 +27,8 @@ class SegmentFeed {
   /// How a path is encoded, and how much of it is wanted in the drive.
   struct Manner {
     encoding::ImsEncoding encoding;
-    double horizon = 0.5;  ///< s
+    double horizon = 0.5;      ///< s
+    bool comes_close = false;  ///< a way on that needs a wider bound at first is worth narrowing it again
   };
 
   /// Begins anew, nothing sent. `depth`: places of the drive's queue, >= 1. Throws as
@@ -112,11 +114,12 @@ class SegmentFeed {
     trajectory::Path path;           ///< rad or m over goal time
     encoding::ImsEncoding encoding;  ///< with the bound that is in force
     double horizon;                  ///< s
+    std::deque<BoundFrom> bounds;    ///< that are planned for later
     encoding::ImsEncoder encoder;    ///< where the segments given out so far lead
   };
 
-  static std::optional<Refusal> try_out(const trajectory::Path& path, const encoding::ImsEncoding& encoding,
-                                        const encoding::ImsKnot& from, std::vector<std::int64_t>& ticks);
+  void encode_as(const encoding::ImsEncoding& encoding);
+  void take_bound();
   std::optional<Refusal> encode_next(double rate, Stretch& stretch);
   void take(std::unique_ptr<Source> source);
   std::size_t executing(double elapsed) const;
