@@ -58,8 +58,12 @@ bool RecordFeed::has_place(double least_played) const {
 
 bool RecordFeed::is_within_horizon(double played) const {
   if (sent_ < this->played(played) + kLeastAhead) return true;
-  return end(sent_ - 1) - played < limits_.horizon;
+  return dry(sent_) - played < limits_.horizon;
 }
+
+/// When a drive that has the first `count` records misses the next: as it begins the last one, it needs the
+/// knot behind it.
+double RecordFeed::dry(std::size_t count) const { return count < 2 ? 0.0 : end(count - 2); }
 
 std::size_t RecordFeed::played(double elapsed) const {
   std::size_t count = std::min(played_, records_.size());
@@ -95,9 +99,9 @@ std::vector<RecordSlot> RecordFeed::slots(GoalTime start) const {
   std::vector<RecordSlot> slots(size() - sent_);
   for (std::size_t i = sent_; i < size(); ++i) {
     RecordSlot& slot = slots[i - sent_];
-    slot.deadline = start + GoalTime{i < 2 ? 0.0 : end(i - 2)};
+    slot.deadline = start + GoalTime{dry(i)};
     const double place_free = i < places ? 0.0 : end(i - places);
-    const double in_horizon = i < kLeastAhead ? 0.0 : end(i - 1) - limits_.horizon;
+    const double in_horizon = i < kLeastAhead ? 0.0 : dry(i) - limits_.horizon;
     const double soon_enough = i < kLeastAhead ? 0.0 : end(i - kLeastAhead);
     slot.release = start + GoalTime{std::max(place_free, std::min(in_horizon, soon_enough))};
   }

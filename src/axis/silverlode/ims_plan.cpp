@@ -10,11 +10,21 @@ namespace {
 /// Longest segment of a stream, and least that the longest one of a goal may have, as multiple of the
 /// shortest one: a segment is committed as a whole.
 constexpr std::int64_t kLongest = 2;
+/// Least that the longest segment of a goal may have, as multiple of the shortest that each drive of the line
+/// can have at once: a calm axis leaves time to the others.
+constexpr std::int64_t kCalm = 4;
 /// Of the bound, the part with which a goal must be possible where segments may not be short: it is encoded
 /// again as it is played, at the rate of the drive's crystal, and then other segments must be found.
 constexpr double kTried = 0.95;
 
-/// Ticks: a segment is committed as a whole, and kLeastAhead of them are kept in the drive.
+/// Ticks of a segment in which each drive of the line can be given a record.
+std::int64_t segment_of_each(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                             const silverlode::LineMaster& line) {
+  const double round = static_cast<double>(line.device_count()) * delivery.record_bus_time();
+  return static_cast<std::int64_t>(std::ceil(round / parameters.scale.tick));
+}
+
+/// Ticks: kLeastAhead segments are kept in the drive, and each is committed as a whole.
 std::int64_t longest_segment(const SilverlodeAxisParameters& parameters) {
   const double fits = parameters.commit_horizon / static_cast<double>(kLeastAhead) / parameters.scale.tick;
   return static_cast<std::int64_t>(fits);
@@ -38,7 +48,7 @@ std::vector<RecordSlot> slots_of(const SilverlodeAxisParameters& parameters, con
 }  // namespace
 
 encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& parameters,
-                                        const SegmentDelivery& delivery) {
+                                        const SegmentDelivery& delivery, const silverlode::LineMaster& line) {
   encoding::ImsEncoding encoding;
   encoding.joint = parameters.joint;
   encoding.transmission = parameters.transmission;
@@ -51,18 +61,20 @@ encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& paramete
   const auto shortest =
       static_cast<std::int64_t>(std::ceil(delivery.shortest_segment() / parameters.scale.tick));
   encoding.min_segment_ticks = std::max(encoding.min_segment_ticks, shortest);
-  encoding.max_segment_ticks = std::max(std::min(encoding.max_segment_ticks, longest_segment(parameters)),
-                                        kLongest * encoding.min_segment_ticks);
+  const std::int64_t least = std::max(kCalm * static_cast<std::int64_t>(delivery.records_per_segment()) *
+                                          segment_of_each(parameters, delivery, line),
+                                      kLongest * encoding.min_segment_ticks);
+  encoding.max_segment_ticks =
+      std::max(std::min(encoding.max_segment_ticks, longest_segment(parameters)), least);
   return encoding;
 }
 
 encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parameters,
                                           const SegmentDelivery& delivery,
                                           const silverlode::LineMaster& line) {
-  encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery);
-  const double round = static_cast<double>(line.device_count()) * delivery.record_bus_time();
-  const auto shortest = static_cast<std::int64_t>(std::ceil(round / parameters.scale.tick));
-  encoding.min_segment_ticks = std::max(encoding.min_segment_ticks, shortest);
+  encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery, line);
+  encoding.min_segment_ticks =
+      std::max(encoding.min_segment_ticks, segment_of_each(parameters, delivery, line));
   encoding.max_segment_ticks = kLongest * encoding.min_segment_ticks;
   return encoding;
 }
@@ -88,7 +100,7 @@ double ims_filling_time(const SilverlodeAxisParameters& parameters, const Segmen
 Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& parameters,
                                          const SegmentDelivery& delivery, const silverlode::LineMaster& line,
                                          const trajectory::Path& path, std::int32_t rest_counts) {
-  const encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery);
+  const encoding::ImsEncoding encoding = ims_goal_encoding(parameters, delivery, line);
   encoding::ImsEncoding tried = encoding;
   if (delivery.shortest_segment() > 0.0) tried.bound_counts *= kTried;
   const auto stream = encoding::encode_ims(path, tried, rest_counts);

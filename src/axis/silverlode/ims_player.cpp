@@ -56,7 +56,7 @@ ImsPlayer::ImsPlayer(SilverlodePowerStage& stage, LineStart* common_start)
       loader_(stage, feed_, *delivery_),
       start_(stage, common_start),
       execution_(parameters_, feed_, clock_) {
-  ims_goal_encoding(parameters_, *delivery_).validate();
+  ims_goal_encoding(parameters_, *delivery_, stage_.line()).validate();
 }
 
 // For the power stage.
@@ -338,7 +338,7 @@ std::optional<GoalTime> ImsPlayer::committed() const {
 
 std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
   const trajectory::Path own = trajectory::shifted(path, GoalTime{0.0} - stream_begin_);
-  const auto encoding = pace == Pace::Goal ? ims_goal_encoding(parameters_, *delivery_)
+  const auto encoding = pace == Pace::Goal ? ims_goal_encoding(parameters_, *delivery_, stage_.line())
                                            : ims_stream_encoding(parameters_, *delivery_, stage_.line());
   return feed_.plan_way_on(own, {encoding, horizon_of(parameters_, pace), pace == Pace::Goal},
                            parameters_.stream_deviation_bound);

@@ -72,11 +72,12 @@ TEST(RecordFeed, VelocityAheadIsInTheUnitOfTheDrive) {
   EXPECT_NEAR(feed.fastest_ahead(0.25, 2.0), 1000.0, 1e-9);
 }
 
+// The last record in the drive is not counted: as the drive begins it, it needs the knot behind it.
 TEST(RecordFeed, KeepsTheHorizonAhead) {
   RecordFeed feed;
   feed.load(stream(200, 100), {64, 2.0});
-  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 20);
-  EXPECT_NEAR(feed.time_ahead(0.05), 1.95, 1e-12);
+  EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 21);
+  EXPECT_NEAR(feed.time_ahead(0.05), 2.05, 1e-12);
   EXPECT_EQ(send_all_due(feed, 1.0, 1.0), 10);
 }
 
@@ -110,7 +111,7 @@ TEST(RecordFeed, SlotsTellWhenEachRecordMayAndMustComeOverTheBus) {
 
 TEST(RecordFeed, WhatHasNotBeenSentCanBeReplaced) {
   RecordFeed feed;
-  feed.load(stream(10, 20), {64, 0.1});
+  feed.load(stream(10, 20), {64, 0.08});
   EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 5);
   EXPECT_EQ(feed.sent_knot().sample, 100);
   EXPECT_EQ(feed.sent_knot().position, 500);

@@ -107,8 +107,10 @@ TEST_P(LostReplies, LeadToThePathOrToAStop) {
   // The line was deaf for longer than there was motion in the drive; or what was left of a segment, in which
   // no checksum is, was one as well.
   if (contains(result.text, "ran dry") || contains(result.text, "changed on the line")) return;
-  for (const auto& joint : scenario.driver().report().joints)
-    EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
+  if (!requests || result.outcome == GoalOutcome::Succeeded) {
+    for (const auto& joint : scenario.driver().report().joints)
+      EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
+  }
   if (result.outcome == GoalOutcome::Succeeded) return;
   EXPECT_EQ(result.outcome, GoalOutcome::Aborted);
   EXPECT_TRUE(contains(result.text, "cannot be known") || contains(result.text, "garbled") ||

@@ -83,6 +83,7 @@ class RecordFeed {
   const Entry& kept(std::size_t index) const;
   bool has_place(double least_played) const;
   bool is_within_horizon(double played) const;
+  double dry(std::size_t count) const;
 
   FeedLimits limits_;
   std::int32_t start_position_ = 0;
