@@ -14,7 +14,7 @@ using GoalId = std::uint64_t;
 
 /// What the group answers when it takes a goal.
 struct GoalAcceptance {
-  GoalId id = 0;                      ///< never 0 for a goal that was accepted
+  GoalId id = 0;  ///< never 0 for a goal that was accepted
   /// From rest: from the start of motion to the last waypoint, lead-in included. In motion: from now on until
   /// all joints stand, those too that go on with a former goal.
   GoalTime duration{0.0};

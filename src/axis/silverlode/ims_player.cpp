@@ -44,6 +44,18 @@ double rate_for_next(const SegmentFeed& feed, const PlaybackClock& clock, HostTi
   return clock.goal_rate(due - feed.knot_goal_time().count());
 }
 
+/// A drive whose queue has run dry leaves the interpolated motion, and takes what comes afterwards all the
+/// same. `number`: the segment that `outcome` has given to the drive.
+std::optional<std::string> too_late(const SegmentFeed& feed, const PlaybackClock& clock, std::size_t number,
+                                    const Outcome& outcome) {
+  const double late = clock.least_elapsed(outcome.request_end) - feed.begin_of(number);
+  if (late <= 0.0) return std::nullopt;
+  return fmt::format(
+      "its queue ran dry: a segment got over the line {:.3f} s after the one before had ended. {:.3f} s of "
+      "motion are kept in the drive (commit_horizon): make it longer than the line is disturbed",
+      late, feed.horizon());
+}
+
 }  // namespace
 
 ImsPlayer::ImsPlayer(SilverlodePowerStage& stage, LineStart* common_start)
@@ -65,23 +77,10 @@ bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   if (!delivery_->owns(outcome)) return start_.take(outcome);
   const std::size_t before = delivery_->delivered();
   auto failure = delivery_->take(outcome, now);
-  if (!failure) failure = came_too_late(before, outcome);
+  const bool given = phase_ == Phase::Moving && outcome.accepted() && delivery_->delivered() > before;
+  if (!failure && given) failure = too_late(feed_, clock_, before, outcome);
   if (failure) stage_.fail(*failure, now);
   return true;
-}
-
-/// A drive whose queue has run dry leaves the interpolated motion and takes what comes afterwards all the
-/// same.
-std::optional<std::string> ImsPlayer::came_too_late(std::size_t first, const Outcome& outcome) {
-  if (phase_ != Phase::Moving || delivery_->delivered() <= first || !outcome.accepted()) return std::nullopt;
-  const double late = clock_.least_elapsed(outcome.request_end) - feed_.begin_of(first);
-  if (late <= 0.0) return std::nullopt;
-  ++underruns_;
-  return fmt::format(
-      "its queue ran dry: a segment got over the line {:.3f} s after the one before had ended. {:.3f} s of "
-      "motion "
-      "are kept in the drive (commit_horizon): make it longer than the line is disturbed",
-      late, feed_.horizon());
 }
 
 void ImsPlayer::begin(HostTime now) {

@@ -45,8 +45,7 @@ inline constexpr double kLatestTold = 0.3;
 /// How segments of goals, and of streams, are encoded. A segment is committed as a whole, so those of streams
 /// are kept short: as short as the line can follow, and twice as long at most.
 encoding::ImsEncoding ims_goal_encoding(const SilverlodeAxisParameters& parameters,
-                                        const SegmentDelivery& delivery,
-                                        const silverlode::LineMaster& line);
+                                        const SegmentDelivery& delivery, const silverlode::LineMaster& line);
 encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parameters,
                                           const SegmentDelivery& delivery,
                                           const silverlode::LineMaster& line);

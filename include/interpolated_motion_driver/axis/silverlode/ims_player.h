@@ -90,8 +90,6 @@ class ImsPlayer final : public SegmentPlayer {
   void poll_ending(HostTime now);
   void begin_motion(HostTime now);
   void watch_motion(HostTime now);
-  /// Whether segment `first`, the first of those that `outcome` has given to the drive, found the queue dry.
-  std::optional<std::string> came_too_late(std::size_t first, const silverlode::Outcome& outcome);
   void end_of_motion(HostTime now);
   GoalTime playback_of_feed(HostTime when) const;
   void enter(Phase phase, HostTime now);
