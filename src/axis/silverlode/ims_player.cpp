@@ -78,7 +78,10 @@ bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   const std::size_t before = delivery_->delivered();
   auto failure = delivery_->take(outcome, now);
   const bool given = phase_ == Phase::Moving && outcome.accepted() && delivery_->delivered() > before;
-  if (!failure && given) failure = too_late(feed_, clock_, before, outcome);
+  if (!failure && given) {
+    failure = too_late(feed_, clock_, before, outcome);
+    underruns_ += failure ? 1U : 0U;
+  }
   if (failure) stage_.fail(*failure, now);
   return true;
 }
