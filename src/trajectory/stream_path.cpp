@@ -58,7 +58,7 @@ Expected<Path, LimitViolation> reach_at(const State& from, GoalTime start, GoalT
 Expected<Path, LimitViolation> stream_path(const State& from, GoalTime start, const StreamTarget& target,
                                            const StreamRules& rules) {
   const GoalTime earliest = std::max(target.time, start + kShortestPiece);
-  const GoalTime latest = std::max(earliest, target.time + rules.catch_up);
+  const GoalTime latest = std::max(target.time, start) + rules.catch_up;
   auto path = reach_at(from, start, earliest, target, rules);
   for (GoalTime delay = kFirstDelay; !path && earliest + delay <= latest; delay *= kNextDelay) {
     path = reach_at(from, start, earliest + delay, target, rules);

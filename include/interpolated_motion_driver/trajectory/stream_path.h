@@ -26,7 +26,7 @@ struct StreamTarget {
 /// The path from `from` at `start` through a setpoint, to go on with while no further one comes:
 /// - a cubic to the setpoint, in position and velocity. If the limits do not allow that in time, it meets the
 ///   stream later, where it will be at the setpoint's velocity: by the shortest delay that the search finds,
-///   at most `catch_up`;
+///   at most `catch_up` later than that, or than `start`;
 /// - straight on for `ride_through`, then a smooth stop; the limits of position may shorten either.
 ///
 /// So there is always a stop behind the newest setpoint, and a fresh one leaves the path at any point without
