@@ -44,6 +44,7 @@ std::optional<Refusal> Group::open_stream(const Setpoint& setpoint, HostTime now
   waiting_ = setpoint;
   for (axis::Axis* axis : axes_) axis->load(now);
   std::vector<trajectory::Path> paths;
+  paths.reserve(rest.size());
   for (const trajectory::State& state : rest) paths.emplace_back(state.position);
   course_.begin(std::move(paths));
   stream_stage_ = StreamStage::Loading;
