@@ -63,7 +63,7 @@ void add_joint(const Curve& curve, double duration, double s, int shape, traject
   if (shape == 3) point.velocities.push_back(0.0);
 }
 
-void spoil(trajectory::Goal& goal, GoalDefect defect, const Arm& arm) {
+void spoil(trajectory::Goal& goal, GoalDefect defect, const Arm& arm, double present) {
   trajectory::Waypoint& last = goal.points.back();
   switch (defect) {
     case GoalDefect::BeyondLimit:
@@ -73,7 +73,7 @@ void spoil(trajectory::Goal& goal, GoalDefect defect, const Arm& arm) {
     case GoalDefect::StartElsewhere: {
       trajectory::Waypoint first = last;
       first.time = GoalTime{0.0};
-      first.positions[0] += 1.0;
+      first.positions[0] = present + 1.0;
       if (goal.points.front().time == GoalTime{0.0}) goal.points.erase(goal.points.begin());
       goal.points.insert(goal.points.begin(), first);
       return;
@@ -124,7 +124,7 @@ trajectory::Goal make_goal(const Event& event, const Arm& arm, const std::vector
     goal.points.push_back(point);
   }
   if (event.numbers.count("stamp") > 0) goal.start = now + host_duration(event.number("stamp"));
-  spoil(goal, defect_of(event), arm);
+  spoil(goal, defect_of(event), arm, present.front());
   return goal;
 }
 
