@@ -1,10 +1,9 @@
 #include <cmath>
-#include <cstdlib>
-#include <random>
 
 #include <gtest/gtest.h>
 
 #include "hardware/scenario.h"
+#include "trajectory/random.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -12,41 +11,21 @@ namespace {
 using motion::GoalOutcome;
 using motion::GroupState;
 
-int cases() {
-  const char* text = std::getenv("IMD_PROPERTY_CASES");
-  return text == nullptr ? 40 : std::atoi(text);
-}
-
-/// Uniform in [low, high), the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double number(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) / 9007199254740992.0;
-  }
-  int whole(int low, int high) {
-    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-trajectory::Goal random_goal(Random& random, int joints, const std::vector<double>& start) {
-  const int points = random.whole(1, 12);
-  const bool with_velocities = random.whole(0, 1) == 1;
+trajectory::Goal random_goal(trajectory::Random& random, int joints, const std::vector<double>& start) {
+  const int points = random.integer(1, 12);
+  const bool with_velocities = random.integer(0, 1) == 1;
   std::vector<double> times;
   std::vector<std::vector<double>> positions;
   std::vector<std::vector<double>> velocities;
   std::vector<double> position = start;
   double time = 0.0;
   for (int i = 0; i < points; ++i) {
-    const double step = random.number(0.1, 0.8);
+    const double step = random.uniform(0.1, 0.8);
     times.push_back(time += step);
     std::vector<double> velocity(static_cast<std::size_t>(joints), 0.0);
     for (std::size_t j = 0; j < position.size(); ++j) {
-      position[j] += random.number(-1.0, 1.0) * step * step;
-      if (i + 1 < points) velocity[j] = random.number(-0.3, 0.3);
+      position[j] += random.uniform(-1.0, 1.0) * step * step;
+      if (i + 1 < points) velocity[j] = random.uniform(-0.3, 0.3);
     }
     positions.push_back(position);
     velocities.push_back(velocity);
@@ -58,15 +37,15 @@ trajectory::Goal random_goal(Random& random, int joints, const std::vector<doubl
 // refused moves nothing.
 TEST(RandomGoals, AcceptedMeansPlayedRefusedMeansStill) {
   int accepted_goals = 0;
-  for (int seed = 1; seed <= cases(); ++seed) {
-    Random random(static_cast<std::uint64_t>(seed));
-    const int joints = random.whole(1, 3);
+  for (int seed = 1; seed <= trajectory::property_cases(40); ++seed) {
+    trajectory::Random random(static_cast<std::uint64_t>(seed));
+    const int joints = random.integer(1, 3);
     std::string changes = "{drives: {";
     for (int j = 1; j <= joints; ++j) {
-      changes += "joint" + std::to_string(j) + ": {direction: " + (random.whole(0, 1) == 1 ? "1" : "-1") +
-                 ", offset: " + std::to_string(random.number(-1.0, 1.0)) +
-                 ", emulation: {clock_error_ppm: " + std::to_string(random.number(-200.0, 200.0)) +
-                 ", tick_phase: " + std::to_string(random.number(0.0, 0.0009)) + "}}, ";
+      changes += "joint" + std::to_string(j) + ": {direction: " + (random.integer(0, 1) == 1 ? "1" : "-1") +
+                 ", offset: " + std::to_string(random.uniform(-1.0, 1.0)) +
+                 ", emulation: {clock_error_ppm: " + std::to_string(random.uniform(-200.0, 200.0)) +
+                 ", tick_phase: " + std::to_string(random.uniform(0.0, 0.0009)) + "}}, ";
     }
     Scenario scenario(arm_of(joints, changes + "}}"));
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle))
@@ -89,7 +68,7 @@ TEST(RandomGoals, AcceptedMeansPlayedRefusedMeansStill) {
       }
     }
   }
-  EXPECT_GT(accepted_goals, cases()) << "too few goals are accepted to show anything";
+  EXPECT_GT(accepted_goals, trajectory::property_cases(40)) << "too few goals are accepted to show anything";
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "scenario.h"
+#include "hardware/kinds_of_arms.h"
+#include "hardware/scenario.h"
+#include "trajectory/random.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -18,33 +18,6 @@ using motion::GroupState;
 constexpr double kMaxVelocity = 3.5;       // rad/s, of every joint of these arms
 constexpr double kMaxAcceleration = 20.0;  // rad/s^2
 constexpr double kInterval = 0.02;         // s, over which differences are taken
-
-int cases() {
-  const char* text = std::getenv("IMD_PROPERTY_CASES");
-  return text == nullptr ? 40 : std::atoi(text);
-}
-
-/// Uniform in [low, high), the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double number(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-struct Kind {
-  const char* name;
-  YAML::Node (*arm)(const std::string&);
-};
-
-const Kind kKinds[] = {{"epos", six_axis},
-                       {"silverlode", six_axis_silverlode},
-                       {"cyclic", six_axis_cyclic},
-                       {"all_kinds", six_axis_of_all_kinds}};
 
 /// What the demand of one joint does, by differences over kInterval.
 class Watch {
@@ -74,13 +47,13 @@ class Watch {
 };
 
 /// All joints to somewhere else, so slowly that it is possible from most states of motion.
-trajectory::Goal random_goal(Random& random, const std::vector<double>& present, double effort) {
+trajectory::Goal random_goal(trajectory::Random& random, const std::vector<double>& present, double effort) {
   trajectory::Goal goal;
   trajectory::Waypoint point;
   double duration = 0.4;
   for (std::size_t i = 0; i < present.size(); ++i) {
     goal.joint_names.push_back("joint" + std::to_string(i + 1));
-    const double target = random.number(-1.5, 1.5);
+    const double target = random.uniform(-1.5, 1.5);
     const double distance = std::abs(target - present[i]);
     point.positions.push_back(target);
     duration = std::max({duration, 1.875 * distance / (effort * kMaxVelocity),
@@ -93,7 +66,7 @@ trajectory::Goal random_goal(Random& random, const std::vector<double>& present,
   return goal;
 }
 
-class Replacement : public ::testing::TestWithParam<Kind> {
+class Replacement : public ::testing::TestWithParam<KindOfArm> {
  protected:
   void SetUp() override {
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
@@ -111,15 +84,16 @@ class Replacement : public ::testing::TestWithParam<Kind> {
 // Goals over goals at any instant: whatever is accepted in motion is joined without a stop, within the limits
 // and to its end; whatever is refused changes nothing.
 TEST_P(Replacement, IsOneMotion) {
-  Random random(1);
+  const int cases = trajectory::property_cases(40);
+  trajectory::Random random(1);
   int joined = 0;
   double longest_wait = 0.0;
   auto goal = scenario.submit(random_goal(random, scenario.positions(), 0.6));
   ASSERT_TRUE(goal) << goal.error().text;
   ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
   for (const auto& joint : scenario.driver().report().joints) counts.push_back(joint.count);
-  for (int i = 0; i < cases(); ++i) {
-    const double until = random.number(0.05, 0.8);
+  for (int i = 0; i < cases; ++i) {
+    const double until = random.uniform(0.05, 0.8);
     scenario.run_until([&] { return scenario.state() != GroupState::Moving; }, until);
     const bool moving = scenario.state() == GroupState::Moving;
     const double left = (scenario.snapshot().goal_duration - scenario.snapshot().goal_time).count();
@@ -136,7 +110,7 @@ TEST_P(Replacement, IsOneMotion) {
   }
   const auto result = scenario.result_of(goal.value().id);
   EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
-  EXPECT_GE(joined, cases() / 4);
+  EXPECT_GE(joined, cases / 4);
   double fastest = 0.0;
   double hardest = 0.0;
   for (const Watch& watch : watches) {
@@ -148,10 +122,10 @@ TEST_P(Replacement, IsOneMotion) {
   for (const auto& joint : scenario.driver().report().joints)
     EXPECT_LE(joint.worst_deviation, 8.0) << joint.joint;
   std::printf("%s: %d of %d joined, %.2f s until the join at most, %.2f rad/s, %.2f rad/s^2\n",
-              GetParam().name, joined, cases(), longest_wait, fastest, hardest);
+              GetParam().name, joined, cases, longest_wait, fastest, hardest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Replacement, ::testing::ValuesIn(kKinds),
+INSTANTIATE_TEST_SUITE_P(Kinds, Replacement, ::testing::ValuesIn(kKindsOfArms),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "hardware/scenario.h"
+#include "trajectory/random.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -17,23 +16,6 @@ using motion::GoalOutcome;
 using motion::GroupState;
 
 constexpr double kMaxAcceleration = 20.0;  // rad/s^2, of every joint of these arms
-
-int cases() {
-  const char* text = std::getenv("IMD_PROPERTY_CASES");
-  return text == nullptr ? 20 : std::atoi(text);
-}
-
-/// Uniform in [low, high), the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double number(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 struct Kind {
   const char* name;
@@ -84,13 +66,13 @@ class Watch {
 };
 
 /// Every joint along a quintic from rest to rest, at up to 0.9 of its limits.
-trajectory::Goal random_goal(Random& random, const std::vector<double>& start) {
+trajectory::Goal random_goal(trajectory::Random& random, const std::vector<double>& start) {
   trajectory::Goal goal;
   trajectory::Waypoint point;
   double duration = 0.1;
   for (std::size_t i = 0; i < start.size(); ++i) {
     goal.joint_names.push_back("joint" + std::to_string(i + 1));
-    const double target = random.number(-2.0, 2.0);
+    const double target = random.uniform(-2.0, 2.0);
     const double distance = std::abs(target - start[i]);
     point.positions.push_back(target);
     duration = std::max({duration, 1.875 * distance / (0.9 * 3.5),
@@ -143,21 +125,21 @@ class StopAcceleration : public ::testing::TestWithParam<Kind> {
 
 // At every sample from the halt on until they rest.
 TEST_P(StopAcceleration, OfStopsAtRandomInstantsIsWithinTheLimit) {
-  Random random(1);
+  trajectory::Random random(1);
   double worst = 0.0;
-  for (int n = 0; n < cases(); ++n) {
+  for (int n = 0; n < trajectory::property_cases(20); ++n) {
     const auto accepted = scenario.submit(random_goal(random, scenario.positions()));
     ASSERT_TRUE(accepted) << accepted.error().text;
     ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
-    scenario.run(random.number(0.05, 0.9));
+    scenario.run(random.uniform(0.05, 0.9));
     if (scenario.state() != GroupState::Moving) continue;
     const double found = worst_of_a_stop(accepted.value().id);
     EXPECT_LE(found, 1.05 * kMaxAcceleration + kind.rounding) << n;
     worst = std::max(worst, found);
   }
   EXPECT_GE(worst, 0.5 * kMaxAcceleration) << "nothing has been stopped";
-  std::printf("%s: %d stops, worst %.2f rad/s^2 at a limit of %.0f\n", kind.name, cases(), worst,
-              kMaxAcceleration);
+  std::printf("%s: %d stops, worst %.2f rad/s^2 at a limit of %.0f\n", kind.name,
+              trajectory::property_cases(20), worst, kMaxAcceleration);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, StopAcceleration, ::testing::ValuesIn(kKinds),

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hardware/kinds_of_arms.h"
 #include "hardware/scenario.h"
 
 // What joint_trajectory_controller means by a goal that comes while another one is executed, one meaning a
@@ -14,19 +15,9 @@ namespace {
 using motion::GoalOutcome;
 using motion::GroupState;
 
-struct Kind {
-  const char* name;
-  YAML::Node (*arm)(const std::string&);
-};
-
-const Kind kKinds[] = {{"epos", six_axis},
-                       {"silverlode", six_axis_silverlode},
-                       {"cyclic", six_axis_cyclic},
-                       {"all_kinds", six_axis_of_all_kinds}};
-
 constexpr double kNear = 1e-3;  // rad
 
-class TakeOver : public testing::TestWithParam<Kind> {
+class TakeOver : public testing::TestWithParam<KindOfArm> {
  protected:
   void SetUp() override {
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
@@ -145,7 +136,7 @@ TEST_P(TakeOver, FromAStreamAndTheStreamFromTheGoal) {
   EXPECT_EQ(scenario.state(), GroupState::Streaming);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, TakeOver, testing::ValuesIn(kKinds),
+INSTANTIATE_TEST_SUITE_P(Kinds, TakeOver, testing::ValuesIn(kKindsOfArms),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

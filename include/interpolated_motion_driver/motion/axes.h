@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
+#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::motion {
