@@ -8,6 +8,7 @@
 
 #include "interpolated_motion_driver/axis/silverlode/queue_delivery.h"
 #include "interpolated_motion_driver/axis/silverlode/register_delivery.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_silence.h"
 #include "interpolated_motion_driver/protocol/silverlode/registers.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 
@@ -80,6 +81,7 @@ bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   const bool given = phase_ == Phase::Moving && outcome.accepted() && delivery_->delivered() > before;
   if (!failure && given) {
     failure = too_late(feed_, clock_, before, outcome);
+    if (failure) *failure += silverlode::silence_text(stage_.line());
     underruns_ += failure ? 1U : 0U;
   }
   if (failure) stage_.fail(*failure, now);
@@ -284,8 +286,9 @@ void ImsPlayer::end_of_motion(HostTime now) {
     ++underruns_;
     return stage_.fail(fmt::format("the drive left the interpolated motion {:.3f} s after the start "
                                    "instead of {:.3f} s: its queue ran "
-                                   "dry, or something has stopped it",
-                                   clock_.elapsed(looked), feed_.duration()),
+                                   "dry, or something has stopped it{}",
+                                   clock_.elapsed(looked), feed_.duration(),
+                                   silverlode::silence_text(stage_.line())),
                        now);
   }
   enter(Phase::Ending, now);

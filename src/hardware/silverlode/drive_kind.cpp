@@ -1,5 +1,6 @@
 #include "interpolated_motion_driver/hardware/silverlode/drive_kind.h"
 
+#include <algorithm>
 #include <any>
 #include <cstdint>
 
@@ -11,6 +12,7 @@
 #include "interpolated_motion_driver/emulation/silverdust/silverdust.h"
 #include "interpolated_motion_driver/hardware/drive_parameters.h"
 #include "interpolated_motion_driver/hardware/silverlode/configuration.h"
+#include "interpolated_motion_driver/protocol/silverlode/line_silence.h"
 
 namespace interpolated_motion::hardware {
 
@@ -49,6 +51,16 @@ axis::LineStart* common_start(SerialLink& link, const DriveConfiguration& drive,
   return std::any_cast<Shared&>(shared).get();
 }
 
+/// s of motion kept in a drive: a drive that falls silent takes the line from the others, which must not run
+/// dry before that is known.
+double commit_horizon(const DriveConfiguration& drive, const Configuration& all) {
+  const auto on_line = std::count_if(all.drives.begin(), all.drives.end(),
+                                    [&](const DriveConfiguration& other) { return other.bus == drive.bus; });
+  if (on_line == 1) return all.commit_horizon;
+  const double silence = seconds(silverlode::longest_silence(all.bus_of(drive).serial.line));
+  return std::max(all.commit_horizon, silence);
+}
+
 axis::SilverlodeAxisParameters axis_parameters(const DriveConfiguration& drive, const Configuration& all,
                                                const silverlode::LineMaster& line) {
   const BusConfiguration& bus = all.bus_of(drive);
@@ -56,6 +68,7 @@ axis::SilverlodeAxisParameters axis_parameters(const DriveConfiguration& drive, 
   axis::SilverlodeAxisParameters parameters;
   set_axis_parameters(parameters, drive, all);
   set_record_parameters(parameters, drive, all);
+  parameters.commit_horizon = commit_horizon(drive, all);
   parameters.stream_deviation_bound = settings.stream_deviation_bound;
   parameters.line_share = bus.max_load;
   parameters.start_lead = start_lead(drive, all, line);

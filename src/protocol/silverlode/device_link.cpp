@@ -131,6 +131,7 @@ void DeviceLink::count(const Outcome& outcome) {
     }
     case OutcomeKind::NoReply:
       ++statistics_.timeouts;
+      ++statistics_.timeouts_in_a_row;
       break;
     case OutcomeKind::Garbled:
       ++statistics_.garbled;
@@ -142,6 +143,7 @@ void DeviceLink::count(const Outcome& outcome) {
   }
   if (!outcome.accepted() && outcome.kind != OutcomeKind::Refused) return;
   statistics_.garbled_in_a_row = 0;
+  statistics_.timeouts_in_a_row = 0;
   statistics_.late_by = HostDuration::zero();
 }
 

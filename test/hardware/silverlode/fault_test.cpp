@@ -1,9 +1,11 @@
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "hardware/fault_in_motion.h"
+#include "hardware/setpoint_streaming.h"
 
 namespace interpolated_motion::test {
 namespace {
@@ -56,6 +58,40 @@ TEST_F(SilverlodeFaultInMotion, LostDriveStopsTheGroupAndRunsDryByItself) {
   EXPECT_NEAR(scenario->positions()[0], rest, 1e-6) << "register 19 has not stopped the drive";
   expect_recovery();
 }
+
+/// A drive that does not answer takes the line's time, up to repeats + 1 times reply_timeout: the others have
+/// motion for so long, and the fault is that of the drive that is silent.
+class SilentDriveOfALine : public FaultInMotion, public testing::WithParamInterface<const char*> {};
+
+TEST_P(SilentDriveOfALine, IsTheCauseAndStarvesNoOther) {
+  const std::string line = std::string("{reply_timeout: ") + GetParam() + "}";
+  for (const char* const command : {"silence 1", "power_cycle 0.2", "power_cycle 30"}) {
+    move(six_axis_silverlode("{buses: {line0: " + line + ", line1: " + line + "}}"));
+    inject("joint5", command);
+    expect_stop("Joint joint5 (line1 address 20)", 2.5, 4);
+    for (const auto& joint : scenario->snapshot().joints) EXPECT_EQ(joint.underruns, 0U) << command;
+  }
+}
+
+class SilentDriveInAStream : public SetpointStreaming, public testing::WithParamInterface<const char*> {};
+
+// A stream has less ahead, so another drive may run dry first; the cause is told all the same.
+TEST_P(SilentDriveInAStream, IsNamed) {
+  const std::string line = std::string("{reply_timeout: ") + GetParam() + "}";
+  start(six_axis_silverlode("{buses: {line0: " + line + ", line1: " + line + "}}"), 0.1);
+  stream(2.0, with_loss(0.0, 1));
+  std::string reason;
+  ASSERT_TRUE(scenario->driver().inject("joint5", "silence 1", &reason, scenario->now())) << reason;
+  for (double t = 2.0; t < 12.0 && scenario->state() != GroupState::Fault; t += kPeriod) {
+    send(setpoint(begin + host_duration(t), position_at(t)));
+    run(kPeriod);
+  }
+  EXPECT_EQ(scenario->state(), GroupState::Fault);
+  EXPECT_TRUE(contains(scenario->snapshot().fault, "line1 address 20")) << scenario->snapshot().fault;
+}
+
+INSTANTIATE_TEST_SUITE_P(ReplyTimeout, SilentDriveInAStream, testing::Values("0.02", "0.1", "0.2", "0.5"));
+INSTANTIATE_TEST_SUITE_P(ReplyTimeout, SilentDriveOfALine, testing::Values("0.02", "0.1", "0.2", "0.5"));
 
 TEST_F(SilverlodeFaultInMotion, CutCableStopsEveryDriveOfTheLineByItself) {
   move();

@@ -22,6 +22,7 @@ struct LinkStatistics {
   std::uint64_t data = 0;          ///< replies "#"
   std::array<std::uint64_t, kMaxNakCode + 1> refused{};  ///< by NAK code, others at index 0
   std::uint64_t timeouts = 0;                            ///< attempts without a reply
+  std::uint64_t timeouts_in_a_row = 0;                   ///< since the last whole reply
   std::uint64_t garbled = 0;                             ///< attempts that ended with a garbled reply
   std::uint64_t garbled_in_a_row = 0;                    ///< since the last whole reply
   std::uint64_t second_replies = 0;                      ///< to a request that was answered already

@@ -65,7 +65,7 @@ class LineMaster {
   /// Adds a drive, address 1..254, not added before; throws std::invalid_argument otherwise.
   DeviceLink& add_device(std::uint8_t address);
   /// The device, or nullptr when it was not added.
-  DeviceLink* find_device(std::uint8_t address) { return devices_[address].get(); }
+  DeviceLink* find_device(std::uint8_t address) const { return devices_[address].get(); }
 
   /// Devices added so far.
   std::size_t device_count() const { return in_order_.size(); }
