@@ -60,7 +60,7 @@ class RealArm(AnyDrives):
     def adapt(cls, configuration):
         """The configuration of a test: lines in a folder of its own, so that nothing else uses them, and patience with a loaded
         machine."""
-        configuration['bring_up_timeout'] = 60.0
+        configuration.update(bring_up_timeout=60.0, commit_horizon=2.0)
         for name in buses_outside(configuration):
             bus = configuration['buses'][name]
             if bus['transport'] == 'serial':
