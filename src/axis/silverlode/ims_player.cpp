@@ -284,12 +284,12 @@ void ImsPlayer::end_of_motion(HostTime now) {
   if (!feed_.all_sent() ||
       clock_.most_elapsed(looked) + seconds(parameters_.execution_time) < feed_.duration()) {
     ++underruns_;
-    return stage_.fail(fmt::format("the drive left the interpolated motion {:.3f} s after the start "
-                                   "instead of {:.3f} s: its queue ran "
-                                   "dry, or something has stopped it{}",
-                                   clock_.elapsed(looked), feed_.duration(),
-                                   silverlode::silence_text(stage_.line())),
-                       now);
+    return stage_.fail(
+        fmt::format("the drive left the interpolated motion {:.3f} s after the start "
+                    "instead of {:.3f} s: its queue ran "
+                    "dry, or something has stopped it{}",
+                    clock_.elapsed(looked), feed_.duration(), silverlode::silence_text(stage_.line())),
+        now);
   }
   enter(Phase::Ending, now);
   stage_.sequence().start(

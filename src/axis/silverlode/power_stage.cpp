@@ -45,7 +45,7 @@ SilverlodePowerStage::SilverlodePowerStage(SilverlodeAxisParameters parameters, 
       device_(device),
       pace_(parameters_, facts_, line),
       sequence_(device),
-      status_(device, parameters_.transmission),
+      status_(device, parameters_.transmission, parameters_.target_in_motion),
       commands_(parameters_, device, sequence_, status_) {
   require_finite(parameters_, parameters_.limits.max_velocity, "max_velocity");
   require_finite(parameters_, parameters_.limits.max_acceleration, "max_acceleration");

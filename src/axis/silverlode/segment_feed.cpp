@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "interpolated_motion_driver/interpolation/ims_profile.h"
+
 namespace interpolated_motion::axis {
 
 SegmentFeed::Source::Source(const trajectory::Path& p, const Manner& manner, const encoding::ImsKnot& from)
@@ -72,14 +74,14 @@ const trajectory::Path& SegmentFeed::path() const { return source_->path; }
 
 void SegmentFeed::wait(std::int64_t ticks) {
   const ImsSegment standing{static_cast<std::int32_t>(ticks), start_counts_, 0, 0};
-  next_ = Stretch{end_tick_, ticks, start_goal_time_, 0.0, standing};
+  next_ = Stretch{end_tick_, ticks, start_goal_time_, 0.0, standing, source_->encoder.knot().state};
   waited_ += ticks;
 }
 
 Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
   if (next_) return next_->segment;
   take_bound();
-  Stretch stretch{end_tick_, 0, knot_goal_time(), rate, {}};
+  Stretch stretch{end_tick_, 0, knot_goal_time(), rate, {}, source_->encoder.knot().state};
   std::optional<Refusal> refusal = encode_next(rate, stretch);
   // At another rate than it was tried out with, a way on may become too narrow.
   while (refusal && 2.0 * source_->encoding.bound_counts <= widest_) {
@@ -179,16 +181,29 @@ double SegmentFeed::begin_of(std::size_t number) const {
 }
 
 std::optional<SegmentFeed::Instant> SegmentFeed::instant_of(std::int64_t ticks_left, double expected) const {
-  std::optional<Instant> nearest;
+  const Stretch* nearest = nullptr;
+  double elapsed = 0.0;
   const std::size_t recent = std::min(stretches_.size(), kRecent);
   for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(recent); it != stretches_.end(); ++it) {
-    const Stretch& stretch = *it;
-    if (ticks_left < 1 || ticks_left > stretch.ticks) continue;
-    const double elapsed = tick_ * static_cast<double>(stretch.begin + stretch.ticks - ticks_left);
-    if (!nearest || std::abs(elapsed - expected) < std::abs(nearest->elapsed - expected))
-      nearest = {elapsed, stretch.segment};
+    if (ticks_left < 1 || ticks_left > it->ticks) continue;
+    const double then = tick_ * static_cast<double>(it->begin + it->ticks - ticks_left);
+    if (nearest != nullptr && std::abs(then - expected) >= std::abs(elapsed - expected)) continue;
+    nearest = &*it;
+    elapsed = then;
   }
-  return nearest;
+  if (nearest == nullptr) return std::nullopt;
+  return after(*nearest, nearest->ticks - ticks_left);
+}
+
+SegmentFeed::Instant SegmentFeed::after(const Stretch& stretch, std::int64_t ticks) const {
+  const interpolation::ImsScale law = source_->encoding.law();
+  interpolation::ImsProfile profile(law, stretch.from);
+  profile.load(stretch.segment);
+  for (std::int64_t k = 0; k < ticks; ++k) profile.tick();
+  const interpolation::ImsState& state = profile.state();
+  return {tick_ * static_cast<double>(stretch.begin + ticks), stretch.segment,
+          interpolation::ims_register(interpolation::ims_nearest_count(law, state)),
+          std::abs(static_cast<double>(state.velocity)) * law.counts_per_unit()};
 }
 
 double SegmentFeed::knot_end() const {

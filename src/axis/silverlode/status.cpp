@@ -40,8 +40,10 @@ Request SilverlodeStatus::request_of(Question question) const {
     case Question::PositionAndDeceleration:
       return silverlode::rrg_request(address, registers::kActualPosition, registers::kImsDeceleration);
     case Question::PositionAndExecution:
-      return silverlode::rrg_request(address, registers::kActualPosition, registers::kImsTicksLeft,
-                                     registers::kProfileAcceleration, registers::kProfileVelocity);
+      return silverlode::rrg_request(
+          address, registers::kActualPosition, registers::kImsTicksLeft,
+          target_in_motion_ ? registers::kTargetPosition : registers::kProfileAcceleration,
+          registers::kProfileVelocity);
     case Question::Deceleration:
       return silverlode::rrg_request(address, registers::kImsDeceleration);
     case Question::Ticks:
@@ -75,14 +77,12 @@ void SilverlodeStatus::take_answer(const Outcome& outcome) {
       return;
     case Question::PositionAndExecution:
       take_position(outcome);
-      execution = {outcome, outcome.register_value(1).value_or(0), outcome.register_value(2),
-                   outcome.register_value(3)};
-      return;
+      return take_execution(outcome);
     case Question::Deceleration:
       underrun_deceleration = outcome.register_value(0);
       return;
     case Question::Ticks:
-      execution = {outcome, outcome.register_value(0).value_or(0), std::nullopt, std::nullopt};
+      execution = {outcome, outcome.register_value(0).value_or(0), {}, {}, {}, {}};
       return;
     case Question::Io:
       io.raw = outcome.word().value_or(0);
@@ -92,6 +92,13 @@ void SilverlodeStatus::take_answer(const Outcome& outcome) {
       polling.raw = outcome.polling_status().value_or(0);
       return;
   }
+}
+
+void SilverlodeStatus::take_execution(const Outcome& outcome) {
+  Execution look{outcome, outcome.register_value(1).value_or(0), outcome.register_value(0), {}, {}, {}};
+  (target_in_motion_ ? look.target : look.acceleration) = outcome.register_value(2);
+  look.velocity = outcome.register_value(3);
+  execution = look;
 }
 
 void SilverlodeStatus::take_position(const Outcome& outcome) {

@@ -32,7 +32,7 @@ bool is_of_segment(std::int64_t number) {
 std::int32_t DataRegisters::read(std::int64_t number) const {
   switch (number) {
     case kTargetPosition:
-      return wrapped(motion_.target().counts());
+      return target_position();
     case kActualPosition:
       return axis_.reading();
     case kPositionError:
@@ -42,6 +42,11 @@ std::int32_t DataRegisters::read(std::int64_t number) const {
     default:
       return registers_.get(number);
   }
+}
+
+std::int32_t DataRegisters::target_position() const {
+  if (motion_.interpolating() && !replies_.target_in_motion) return registers_.get(kProfilePosition);
+  return wrapped(motion_.target().counts());
 }
 
 std::int32_t DataRegisters::position_error() const {
@@ -56,7 +61,7 @@ std::int32_t DataRegisters::velocity() const {
 
 bool DataRegisters::write(std::int64_t number, std::int32_t value) {
   const bool in_use = is_of_segment(number) && motion_.interpolating();
-  if (in_use && segment_writes_ == SegmentWriteReply::CommandError) return false;
+  if (in_use && replies_.segment_writes == SegmentWriteReply::CommandError) return false;
   registers_.set(number, value);
   if (in_use) motion_.follow_registers();
   return true;

@@ -48,6 +48,7 @@ void parse_emulated_unknowns(ParameterReader& reader, SilverDustParameters& emul
   emulated.revision = static_cast<std::uint16_t>(reader.integer("revision", emulated.revision, 0, 0xFFFF));
   emulated.queue_depth = static_cast<int>(reader.integer("queue_depth", emulated.queue_depth, 1, 16));
   emulated.multi_register_read = reader.boolean("multi_register_read", emulated.multi_register_read);
+  emulated.replies.target_in_motion = reader.boolean("target_in_motion", emulated.replies.target_in_motion);
   emulated.ims_arguments = static_cast<int>(reader.integer("ims_arguments", emulated.ims_arguments, -1, 2));
   emulated.ack_delay = static_cast<int>(reader.integer("ack_delay", emulated.ack_delay, 0, 65535));
   emulated.integration = reader.choice("integration", emulated.integration,
@@ -125,6 +126,7 @@ std::shared_ptr<const SilverlodeSettings> parse_silverlode(ParameterReader& read
   settings->stream_deviation_bound = parse_stream_deviation_bound(reader, drive, default_stream_bound(drive));
   parse_ims_arguments(reader, drive.number, *settings);
   parse_queue(reader, *settings);
+  settings->target_in_motion = reader.boolean("target_in_motion", settings->target_in_motion);
   parse_scales(reader, drive, *settings);
   parse_emulated(emulation, drive, *settings);
   return settings;

@@ -55,7 +55,7 @@ axis::LineStart* common_start(SerialLink& link, const DriveConfiguration& drive,
 /// dry before that is known.
 double commit_horizon(const DriveConfiguration& drive, const Configuration& all) {
   const auto on_line = std::count_if(all.drives.begin(), all.drives.end(),
-                                    [&](const DriveConfiguration& other) { return other.bus == drive.bus; });
+                                     [&](const DriveConfiguration& other) { return other.bus == drive.bus; });
   if (on_line == 1) return all.commit_horizon;
   const double silence = seconds(silverlode::longest_silence(all.bus_of(drive).serial.line));
   return std::max(all.commit_horizon, silence);
@@ -78,6 +78,7 @@ axis::SilverlodeAxisParameters axis_parameters(const DriveConfiguration& drive, 
   parameters.ims_arguments = settings.ims_arguments;
   parameters.queue = settings.queue;
   parameters.queue_depth = settings.queue_depth;
+  parameters.target_in_motion = settings.target_in_motion;
   parameters.segment_registers = settings.segment_registers;
   return parameters;
 }

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "hardware/fault_in_motion.h"
@@ -150,6 +152,61 @@ TEST_P(LostReplies, LeadToThePathOrToAStop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, LostReplies, testing::Range(0U, 24U));
+
+// Characters vanish on their way to the drives, and what is left of a segment may be one that the drive
+// takes.
+class ChangedSegments : public testing::TestWithParam<std::tuple<unsigned, bool>> {};
+
+TEST_P(ChangedSegments, AreNoticedByWhereTheyLead) {
+  const auto [seed, target_in_motion] = GetParam();
+  constexpr double kFollowing = 0.02;  // rad
+  std::mt19937 random(seed);
+  std::string drives;
+  for (int i = 1; i <= 6; ++i) {
+    drives += fmt::format("joint{}: {{max_following_error: {}, target_in_motion: {}}}, ", i, kFollowing,
+                          target_in_motion);
+  }
+  Scenario scenario(six_axis_silverlode("{drives: {" + drives + "}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  const auto accepted = scenario.submit(load_goal(goal_file("six_axis_toppra_100ms_pva.yaml")));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+  for (int i = 0; i < 6 && scenario.state() == GroupState::Moving; ++i) {
+    scenario.run(0.2 + 1e-3 * static_cast<double>(random() % 500));
+    std::string reason;
+    ASSERT_TRUE(scenario.driver().inject(random() % 2 == 0 ? "line0" : "line1",
+                                         "lose_requests " + std::to_string(1 + random() % 3), &reason,
+                                         scenario.now()))
+        << reason;
+  }
+  const auto result = scenario.result_of(accepted.value().id);
+  // As soon as it has been looked at twice. When the motion is over no more is left of it than an axis may
+  // follow behind, where register 0 does not tell.
+  const bool at_the_end = contains(result.text, "after the motion");
+  EXPECT_FALSE(at_the_end && target_in_motion) << result.text;
+  for (const auto& joint : scenario.driver().report().joints) {
+    EXPECT_LE(joint.worst_deviation * joint.count, at_the_end ? 1.1 * kFollowing : 0.25)
+        << joint.joint << ": " << result.text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, ChangedSegments, testing::Combine(testing::Range(40U, 72U), testing::Bool()));
+
+// What register 0 is in motion is in no document: a drive in which it is something else is told so, and moves
+// with the parameter.
+TEST(TargetInMotion, IsAParameter) {
+  const std::string other = "emulation: {target_in_motion: false}";
+  for (const bool told : {false, true}) {
+    const std::string drive = "{" + other + (told ? ", target_in_motion: false}" : "}");
+    Scenario scenario(six_axis_silverlode("{drives: {joint2: " + drive + "}}"));
+    ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+    const auto accepted = scenario.submit(load_goal(goal_file("six_axis_toppra_100ms_pva.yaml")));
+    ASSERT_TRUE(accepted) << accepted.error().text;
+    const auto result = scenario.result_of(accepted.value().id);
+    EXPECT_EQ(result.outcome, told ? GoalOutcome::Succeeded : GoalOutcome::Aborted) << result.text;
+    EXPECT_EQ(contains(result.text, "target_in_motion: false"), !told) << result.text;
+  }
+}
 
 TEST(SilverlodeBringUp, MissingDriveIsNamed) {
   Scenario scenario(six_axis_silverlode("{drives: {joint2: {emulation: {missing: true}}}}"));

@@ -78,8 +78,10 @@ class SegmentFeed {
 
   /// An instant of the drive's motion.
   struct Instant {
-    double elapsed = 0.0;  ///< s, drive's clock
-    ImsSegment segment;    ///< under execution then
+    double elapsed = 0.0;     ///< s, drive's clock
+    ImsSegment segment;       ///< under execution then
+    std::int32_t counts = 0;  ///< the demand then, as the drive's register has it
+    double speed = 0.0;       ///< counts a tick, a magnitude
   };
   /// When `ticks_left` remain of a segment, of the one for which that comes nearest to `expected` seconds.
   std::optional<Instant> instant_of(std::int64_t ticks_left, double expected) const;
@@ -99,11 +101,12 @@ class SegmentFeed {
  private:
   /// What the drive executes from tick `begin` on.
   struct Stretch {
-    std::int64_t begin = 0;    ///< servo ticks since the start of the motion
-    std::int64_t ticks = 0;    ///< its duration; 0 of the segment that ends the motion
-    GoalTime goal_begin{0.0};  ///< goal time at `begin`
-    double rate = 1.0;         ///< goal seconds per drive second
-    ImsSegment segment;        ///< in the drive's numbers
+    std::int64_t begin = 0;        ///< servo ticks since the start of the motion
+    std::int64_t ticks = 0;        ///< its duration; 0 of the segment that ends the motion
+    GoalTime goal_begin{0.0};      ///< goal time at `begin`
+    double rate = 1.0;             ///< goal seconds per drive second
+    ImsSegment segment;            ///< in the drive's numbers
+    interpolation::ImsState from;  ///< where it begins
   };
   /// The path and its encoder, which refers to it.
   struct Source {
@@ -123,6 +126,7 @@ class SegmentFeed {
   std::optional<Refusal> encode_next(double rate, Stretch& stretch);
   void take(std::unique_ptr<Source> source);
   std::size_t executing(double elapsed) const;
+  Instant after(const Stretch& stretch, std::int64_t ticks) const;
   void forget_old_stretches();
 
   /// Stretches remembered: those of minutes, so that samples of the drive can be held against the path when

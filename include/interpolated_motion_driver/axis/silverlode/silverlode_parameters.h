@@ -26,7 +26,9 @@ struct SilverlodeAxisParameters : AxisParameters {
   SegmentQueue queue = SegmentQueue::Fifo;  ///< where segments wait: decides which of the next two matters
   int queue_depth = 0;  ///< of the FIFO: 4, or 8 from SilverDust revision 06 on; 0: measured at bring-up
   SegmentRegisters segment_registers;  ///< of the register-based queue
-  double max_clock_error = 5e-4;       ///< of the drive's crystal, relative
+  /// Register 0 is the demand at each servo tick of an interpolated motion, not only after it.
+  bool target_in_motion = true;
+  double max_clock_error = 5e-4;  ///< of the drive's crystal, relative
 
   /// From the last bit of a command to its execution by the drive, at most. Nothing is documented; the reply
   /// follows about 2 ms after the command, the command is executed before.

@@ -18,9 +18,11 @@ namespace interpolated_motion::axis {
 /// positions, the ticks left of a segment, the I/O status word, the polling status word.
 class SilverlodeStatus {
  public:
-  /// `device` must outlive this. `transmission` makes feedback() of counts.
-  SilverlodeStatus(silverlode::DeviceLink& device, const encoding::Transmission& transmission)
-      : device_(device), transmission_(transmission) {}
+  /// `device` must outlive this. `transmission` makes feedback() of counts. `target_in_motion`: register 0 is
+  /// worth reading in motion.
+  SilverlodeStatus(silverlode::DeviceLink& device, const encoding::Transmission& transmission,
+                   bool target_in_motion)
+      : device_(device), transmission_(transmission), target_in_motion_(target_in_motion) {}
 
   /// Asks the next question. `moving`: what changes in motion is asked more often than what may have happened
   /// at rest.
@@ -47,13 +49,15 @@ class SilverlodeStatus {
   HostTime io_time{};                 ///< the drive answered with `io` at this time or later
   silverlode::PollingStatus polling;  ///< latest answer to POL; all 0 before the first and after forget()
   std::optional<std::int32_t> underrun_deceleration;  ///< register 19; lost when the drive restarts
-  /// A look at the segment under execution: when, the servo ticks left of it, and the numbers the drive has
-  /// copied.
+  /// A look at the segment under execution: when, the servo ticks left of it, and what the drive makes of it.
+  /// A drive that reads one register at a time tells the ticks alone.
   struct Execution {
     silverlode::Outcome outcome;               ///< of the question, with its times
     std::int32_t ticks_left = 0;               ///< register 18
-    std::optional<std::int32_t> acceleration;  ///< unknown where the drive reads one register at a time
-    std::optional<std::int32_t> velocity;      ///< register 22, a magnitude; as `acceleration`
+    std::optional<std::int32_t> position;      ///< counts, register 1
+    std::optional<std::int32_t> target;        ///< counts, register 0, where it tells the demand
+    std::optional<std::int32_t> acceleration;  ///< register 21, where `target` is not read
+    std::optional<std::int32_t> velocity;      ///< register 22, a magnitude
   };
   std::optional<Execution> execution;  ///< the latest, until it is taken
   /// The last question when it got no answer, as text; empty when it got one.
@@ -75,9 +79,11 @@ class SilverlodeStatus {
 
   silverlode::Request request_of(Question question) const;
   void take_answer(const silverlode::Outcome& outcome);
+  void take_execution(const silverlode::Outcome& outcome);
 
   silverlode::DeviceLink& device_;
   encoding::Transmission transmission_;
+  bool target_in_motion_;
   silverlode::RequestId asked_ = silverlode::kNoRequest;
   Question question_ = Question::Position;
   std::size_t turn_ = 0;

@@ -17,11 +17,7 @@ class DataRegisters {
   /// Shows what it is given, which must outlive it.
   DataRegisters(const SilverDustParameters& parameters, RegisterFile& registers, MotionControl& motion,
                 const LaggingAxis& axis, const ErrorLimits& limits)
-      : segment_writes_(parameters.replies.segment_writes),
-        registers_(registers),
-        motion_(motion),
-        axis_(axis),
-        limits_(limits) {}
+      : replies_(parameters.replies), registers_(registers), motion_(motion), axis_(axis), limits_(limits) {}
 
   /// Register `number`, which must exist (RegisterFile).
   std::int32_t read(std::int64_t number) const;
@@ -32,10 +28,11 @@ class DataRegisters {
   bool write(std::int64_t number, std::int32_t value);
 
  private:
+  std::int32_t target_position() const;
   std::int32_t position_error() const;
   std::int32_t velocity() const;
 
-  const SegmentWriteReply segment_writes_;
+  const SilverDustReplies replies_;
   RegisterFile& registers_;
   MotionControl& motion_;
   const LaggingAxis& axis_;

@@ -33,6 +33,9 @@ struct SilverDustReplies {
   BadValueReply bad_values = BadValueReply::Nak;
   DisabledStartReply disabled_start = DisabledStartReply::CommandError;
   SegmentWriteReply segment_writes = SegmentWriteReply::Moves;
+  /// Register 0 during an IMS operation is the demand of the tick; false: the segment's position (register
+  /// 20). Not documented.
+  bool target_in_motion = true;
 };
 
 /// By which velocity the target advances in a servo tick in which the profile generator's velocity ramps. The

@@ -23,6 +23,7 @@ struct SilverlodeSettings : DriveSettings {
   axis::SegmentQueue queue = axis::SegmentQueue::Fifo;  ///< where segments wait in the drive
   int queue_depth = 0;                                  ///< segments of the FIFO; 0: measured at bring-up
   axis::SegmentRegisters segment_registers;             ///< where `queue` is Registers
+  bool target_in_motion = true;              ///< register 0 tells the demand in an interpolated motion too
   emulation::SilverDustParameters emulated;  ///< what the emulated drive is; agrees with the settings above
 };
 
