@@ -1,8 +1,8 @@
 /// What planners send: the goals of config/goals, the odd ends that MoveIt, toppra and tesseract are known
 /// for, goals of thousands of points.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -93,11 +93,11 @@ TEST(PlannerInputs, FiveThousandPointsArePlannedInMilliseconds) {
     const Goal goal = sampled_goal(5000, 0.008, rates);
     double best = 1e9;
     for (int i = 0; i < 10; ++i) {
-      const auto before = std::chrono::steady_clock::now();
+      const std::clock_t before = std::clock();  // of the processor: others may keep it busy
       const auto plan = plan_goal(goal, rules, at_first_point(goal), kNow);
-      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - before;
+      const double taken = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
       ASSERT_TRUE(plan.has_value()) << plan.error().text;
-      best = std::min(best, taken.count());
+      best = std::min(best, taken);
     }
     RecordProperty(rates ? "quintic_us" : "positions_us", static_cast<int>(1e6 * best));
     EXPECT_LT(best, kPlanningTime);
