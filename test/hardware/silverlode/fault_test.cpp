@@ -61,14 +61,18 @@ TEST_F(SilverlodeFaultInMotion, LostDriveStopsTheGroupAndRunsDryByItself) {
   expect_recovery();
 }
 
+/// On both lines, s.
+std::string with_reply_timeout(const char* timeout) {
+  return fmt::format("{{buses: {{line0: {{reply_timeout: {0}}}, line1: {{reply_timeout: {0}}}}}}}", timeout);
+}
+
 /// A drive that does not answer takes the line's time, up to repeats + 1 times reply_timeout: the others have
 /// motion for so long, and the fault is that of the drive that is silent.
 class SilentDriveOfALine : public FaultInMotion, public testing::WithParamInterface<const char*> {};
 
 TEST_P(SilentDriveOfALine, IsTheCauseAndStarvesNoOther) {
-  const std::string line = std::string("{reply_timeout: ") + GetParam() + "}";
   for (const char* const command : {"silence 1", "power_cycle 0.2", "power_cycle 30"}) {
-    move(six_axis_silverlode("{buses: {line0: " + line + ", line1: " + line + "}}"));
+    move(six_axis_silverlode(with_reply_timeout(GetParam())));
     inject("joint5", command);
     expect_stop("Joint joint5 (line1 address 20)", 2.5, 4);
     for (const auto& joint : scenario->snapshot().joints) EXPECT_EQ(joint.underruns, 0U) << command;
@@ -79,8 +83,7 @@ class SilentDriveInAStream : public SetpointStreaming, public testing::WithParam
 
 // A stream has less ahead, so another drive may run dry first; the cause is told all the same.
 TEST_P(SilentDriveInAStream, IsNamed) {
-  const std::string line = std::string("{reply_timeout: ") + GetParam() + "}";
-  start(six_axis_silverlode("{buses: {line0: " + line + ", line1: " + line + "}}"), 0.1);
+  start(six_axis_silverlode(with_reply_timeout(GetParam())), 0.1);
   stream(2.0, with_loss(0.0, 1));
   std::string reason;
   ASSERT_TRUE(scenario->driver().inject("joint5", "silence 1", &reason, scenario->now())) << reason;
