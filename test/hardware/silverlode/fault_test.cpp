@@ -122,9 +122,10 @@ TEST_F(SilverlodeFaultInMotion, GarbageOnTheLineIsSurvived) {
   }
 }
 
-// Characters vanish on their way to the host at any time: replies to status, to segments, to anything. Either
-// the path is followed to the end, every tick of it, or the group stops with a sentence that says why; never
-// does a segment get lost or into a queue twice.
+// Characters vanish on their way at any time: requests or replies, of status, of segments, of anything.
+// Either the path is followed to the end, every tick of it, or the group stops with a sentence that says why;
+// never does a segment get lost or into a queue twice. Only what is left of a request may be another segment:
+// that is noticed, see ChangedSegments.
 class LostReplies : public testing::TestWithParam<unsigned> {};
 
 TEST_P(LostReplies, LeadToThePathOrToAStop) {
@@ -145,6 +146,7 @@ TEST_P(LostReplies, LeadToThePathOrToAStop) {
         << reason;
   }
   const auto result = scenario.result_of(accepted.value().id);
+  if (requests && contains(result.text, "a segment was changed or lost on the line")) return;
   for (const auto& joint : scenario.driver().report().joints)
     EXPECT_LE(joint.worst_deviation, 2.0) << joint.joint;
   if (result.outcome == GoalOutcome::Succeeded) return;
