@@ -43,7 +43,6 @@ SetpointPath::SetpointPath(trajectory::GoalRules rules, const StreamParameters& 
 void SetpointPath::begin(HostTime origin, GoalTime lead) {
   delay_ = parameters_.delay + lead;
   origin_ = origin;
-  joined_ = false;
   source_.clear();
   newest_.reset();
   known_ = 0;
@@ -52,17 +51,15 @@ void SetpointPath::begin(HostTime origin, GoalTime lead) {
 
 Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(
     const Setpoint& setpoint, GoalTime start, const std::vector<trajectory::State>& from) const {
-  const GoalTime begun_late = std::max(start - goal_time(setpoint.time) - delay_, GoalTime{0.0});
-  const GoalTime catch_up = parameters_.catch_up + (joined_ ? GoalTime{0.0} : begun_late);
   std::vector<trajectory::Path> paths;
   for (std::size_t i = 0; i < rules_.joints.size(); ++i) {
-    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, catch_up};
+    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, parameters_.catch_up};
     const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
     const auto on = trajectory::stream_path(from[i], start, aim, rules);
     if (!on) {
       Refusal refusal = trajectory::limit_refusal(rules_.joints[i], rules_.limits[i].unit, on.error());
-      refusal.text =
-          fmt::format("The setpoint cannot be reached within {:.2f} s: {}", catch_up.count(), refusal.text);
+      refusal.text = fmt::format("The setpoint cannot be reached within {:.2f} s: {}",
+                                 parameters_.catch_up.count(), refusal.text);
       return refusal;
     }
     paths.push_back(trajectory::with_rest(on.value(), parameters_.linger));
@@ -75,10 +72,7 @@ void SetpointPath::take(const Setpoint& setpoint) {
   source_ = setpoint.source;
 }
 
-void SetpointPath::follow(const Setpoint& setpoint) {
-  pass_over(setpoint);
-  joined_ = true;
-}
+void SetpointPath::follow(const Setpoint& setpoint) { pass_over(setpoint); }
 
 void SetpointPath::pass_over(const Setpoint& setpoint) {
   for (std::size_t i = 0; i < knots_.size(); ++i) {

@@ -32,8 +32,8 @@ class SetpointPath {
   /// numbers that are not finite, one not newer than the last, too old, too far ahead.
   std::optional<Refusal> check(const Setpoint& setpoint, HostTime now) const;
   /// The way on of all joints from `start`, goal time of the course, where they are in the states `from`, to
-  /// one more setpoint, a stop and a rest. Refused when it cannot be reached within the limits. The first one
-  /// may be reached as much later as the drives have taken to begin.
+  /// one more setpoint, a stop and a rest. Refused when it cannot be reached within the limits, at most
+  /// `catch_up` later than it is due, or than `start`.
   Expected<std::vector<trajectory::Path>, Refusal> way_to(const Setpoint& setpoint, GoalTime start,
                                                           const std::vector<trajectory::State>& from) const;
   /// `setpoint` is the newest of the stream; what is to become of it, follow() or pass_over() tell.
@@ -62,7 +62,6 @@ class SetpointPath {
   StreamParameters parameters_;
   GoalTime delay_{0.0};
   HostTime origin_{};
-  bool joined_ = false;  ///< the arm is on its way to a setpoint
   std::string source_;
   std::optional<HostTime> newest_;
   std::vector<Knots> knots_;
