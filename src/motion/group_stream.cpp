@@ -55,7 +55,7 @@ std::optional<Refusal> Group::open_stream(const Setpoint& setpoint, HostTime now
 }
 
 void Group::wait_with(const Setpoint& setpoint) {
-  if (waiting_) stream_.pass_over(*waiting_);
+  if (waiting_) stream_.note(*waiting_);
   stream_.take(setpoint);
   waiting_ = setpoint;
 }
@@ -90,7 +90,7 @@ std::optional<Refusal> Group::follow_stream(const Setpoint& setpoint, HostTime n
     way.value()[i] = course_.joined(i, kept, *join, way.value()[i]);
   if (auto refusal = plan_way_on(axes_, way.value(), axis::Pace::Stream)) return refusal;
   stream_.take(setpoint);
-  stream_.follow(setpoint);
+  stream_.note(setpoint);
   follow(std::move(way.value()));
   return std::nullopt;
 }
@@ -119,7 +119,7 @@ void Group::join_stream(HostTime now) {
   if (!waiting_) return;
   const Setpoint setpoint = *std::exchange(waiting_, std::nullopt);
   if (!follow_stream(setpoint, now)) return;
-  stream_.pass_over(setpoint);
+  stream_.note(setpoint);
   --setpoints_.accepted;
   ++setpoints_.refused;
 }

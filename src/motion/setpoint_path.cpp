@@ -72,9 +72,7 @@ void SetpointPath::take(const Setpoint& setpoint) {
   source_ = setpoint.source;
 }
 
-void SetpointPath::follow(const Setpoint& setpoint) { pass_over(setpoint); }
-
-void SetpointPath::pass_over(const Setpoint& setpoint) {
+void SetpointPath::note(const Setpoint& setpoint) {
   for (std::size_t i = 0; i < knots_.size(); ++i) {
     std::copy_backward(knots_[i].begin(), knots_[i].end() - 1, knots_[i].end());
     knots_[i][0] = {seconds(setpoint.time - origin_),

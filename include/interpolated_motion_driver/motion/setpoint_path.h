@@ -36,12 +36,11 @@ class SetpointPath {
   /// `catch_up` later than it is due, or than `start`.
   Expected<std::vector<trajectory::Path>, Refusal> way_to(const Setpoint& setpoint, GoalTime start,
                                                           const std::vector<trajectory::State>& from) const;
-  /// `setpoint` is the newest of the stream; what is to become of it, follow() or pass_over() tell.
+  /// `setpoint` is the newest of the stream; note() it when that is decided.
   void take(const Setpoint& setpoint);
-  /// The arm goes the way that way_to() has found for `setpoint`.
-  void follow(const Setpoint& setpoint);
-  /// Does not aim at `setpoint`, since a newer one has come before the drives have begun.
-  void pass_over(const Setpoint& setpoint);
+  /// `setpoint` has its place in the stream, by which the velocity of later ones is known: whether the arm
+  /// goes the way that way_to() has found for it, or a newer one has come before the drives have begun.
+  void note(const Setpoint& setpoint);
   /// As way_to(), of host time.
   GoalTime goal_time(HostTime when) const { return GoalTime{seconds(when - origin_)}; }
 

@@ -48,13 +48,13 @@ double rate_for_next(const SegmentFeed& feed, const PlaybackClock& clock, HostTi
 /// A drive whose queue has run dry leaves the interpolated motion, and takes what comes afterwards all the
 /// same. `number`: the segment that `outcome` has given to the drive.
 std::optional<std::string> too_late(const SegmentFeed& feed, const PlaybackClock& clock, std::size_t number,
-                                    const Outcome& outcome) {
+                                    const Outcome& outcome, const silverlode::LineMaster& line) {
   const double late = clock.least_elapsed(outcome.request_end) - feed.begin_of(number);
   if (late <= 0.0) return std::nullopt;
   return fmt::format(
       "its queue ran dry: a segment got over the line {:.3f} s after the one before had ended. {:.3f} s of "
-      "motion are kept in the drive (commit_horizon): make it longer than the line is disturbed",
-      late, feed.horizon());
+      "motion are kept in the drive (commit_horizon): make it longer than the line is disturbed{}",
+      late, feed.horizon(), silverlode::silence_text(line));
 }
 
 }  // namespace
@@ -80,8 +80,7 @@ bool ImsPlayer::take(const Outcome& outcome, HostTime now) {
   auto failure = delivery_->take(outcome, now);
   const bool given = phase_ == Phase::Moving && outcome.accepted() && delivery_->delivered() > before;
   if (!failure && given) {
-    failure = too_late(feed_, clock_, before, outcome);
-    if (failure) *failure += silverlode::silence_text(stage_.line());
+    failure = too_late(feed_, clock_, before, outcome, stage_.line());
     underruns_ += failure ? 1U : 0U;
   }
   if (failure) stage_.fail(*failure, now);
