@@ -19,6 +19,9 @@ using interpolation::CipValues;
 using interpolation::kCipHighestOrder;
 using interpolation::kCipHistory;
 
+/// Periods by which an instant may miss the grid of target positions and is taken for one of it.
+constexpr double kOnTheGrid = 1e-6;
+
 template <class Value>
 void require(bool valid, const SetpointEncoding& encoding, const char* name, const Value& value,
              const char* range) {
@@ -107,6 +110,10 @@ class AccelerationWatch {
       const double rise = demand.value(servo_period_) - demand.value(0.0);
       note((rise - last_rise_) / (servo_period_ * servo_period_));
     }
+    know(demand);
+  }
+  /// One that is not judged: where the next one sets out.
+  void know(const CipPolynomial& demand) {
     last_rise_ = demand.value(period_) - demand.value(period_ - servo_period_);
     known_ = true;
   }
@@ -192,6 +199,31 @@ double demand_acceleration(const trajectory::Path& path, GoalTime first, const S
     watch.take(interpolation::cip_position_polynomial(encoding.order, encoding.period.count(), values));
   }
   return watch.worst();
+}
+
+std::optional<AccelerationPeak> find_acceleration_beyond(const trajectory::Path& before, GoalTime known,
+                                                         const trajectory::Path& way_on,
+                                                         const SetpointEncoding& encoding) {
+  if (encoding.order == 1) return std::nullopt;
+  AccelerationWatch watch(encoding);
+  PathSweep setpoints(way_on);
+  CipValues values{};
+  const auto demand = [&] {
+    return interpolation::cip_position_polynomial(encoding.order, encoding.period.count(), values);
+  };
+  const GoalTime ahead = std::max(way_on.start_time() - known, GoalTime{0.0});
+  const GoalTime join = known + std::floor(ahead / encoding.period + kOnTheGrid) * encoding.period;
+  for (std::size_t i = 0; i < kCipHistory; ++i)
+    values[i] = before.sample(join - static_cast<double>(i) * encoding.period).position;
+  watch.know(demand());
+  const GoalTime end = way_on.end_time() + kCipHistory * encoding.period;
+  for (GoalTime time = join + encoding.period; time < end; time += encoding.period) {
+    std::copy_backward(values.begin(), values.end() - 1, values.end());
+    values[0] = setpoints.position(time);
+    watch.take(demand());
+    if (watch.worst() > encoding.max_acceleration) return AccelerationPeak{time, watch.worst()};
+  }
+  return std::nullopt;
 }
 
 }  // namespace interpolated_motion::encoding

@@ -11,6 +11,13 @@ namespace {
 /// the first path.
 constexpr GoalTime kTimeToJoin{1.0};
 
+SetpointPath::DemandChecks demand_checks(const std::vector<axis::Axis*>& axes) {
+  SetpointPath::DemandChecks checks;
+  checks.reserve(axes.size());
+  for (const axis::Axis* axis : axes) checks.push_back(axis->demand_check());
+  return checks;
+}
+
 }  // namespace
 
 std::optional<Refusal> Group::setpoint(const Setpoint& setpoint, HostTime now) {
@@ -83,7 +90,7 @@ std::optional<Refusal> Group::follow_stream(const Setpoint& setpoint, HostTime n
         "The stream has paused for so long that its end is in the drives already. Send on: the next "
         "stream begins when they are at rest."};
   }
-  auto way = stream_.way_to(setpoint, *join, course_.at(*join));
+  auto way = stream_.way_to(setpoint, *join, course_.at(*join), demand_checks(axes_));
   if (!way) return way.error();
   const GoalTime kept = oldest_playback(axes_, now) - kKept;
   for (std::size_t i = 0; i < axes_.size(); ++i)

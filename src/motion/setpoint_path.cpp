@@ -50,10 +50,12 @@ void SetpointPath::begin(HostTime origin, GoalTime lead) {
 }
 
 Expected<std::vector<trajectory::Path>, Refusal> SetpointPath::way_to(
-    const Setpoint& setpoint, GoalTime start, const std::vector<trajectory::State>& from) const {
+    const Setpoint& setpoint, GoalTime start, const std::vector<trajectory::State>& from,
+    const DemandChecks& demands) const {
   std::vector<trajectory::Path> paths;
   for (std::size_t i = 0; i < rules_.joints.size(); ++i) {
-    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, parameters_.catch_up};
+    const trajectory::StreamRules rules{rules_.limits[i], parameters_.ride_through, parameters_.catch_up,
+                                        demands.empty() ? trajectory::DemandCheck{} : demands[i]};
     const auto aim = target(setpoint, i, column_of(setpoint, rules_.joints[i]));
     const auto on = trajectory::stream_path(from[i], start, aim, rules);
     if (!on) {

@@ -29,10 +29,6 @@ const std::vector<KnownFault>& known_faults() {
        "limits",
        {"(cyclic)", "rad/s", "after the host was away"},
        "P14"},
-      {"the pieces of a stream meet with a step in acceleration",
-       "limits",
-       {"(cyclic)", "rad/s^2", "in or after a stream"},
-       "S9, issue 15"},
   };
   return faults;
 }

@@ -24,4 +24,12 @@ Polynomial quintic_hermite(const State& from, const State& to, double duration) 
   return {{from.position, from.velocity, 0.5 * from.acceleration, c3, c4, c5}};
 }
 
+Polynomial least_jerk(const State& from, const State& to, double duration) {
+  const double mean = (to.position - from.position) / duration;
+  const double velocities = 60.0 * mean - 24.0 * from.velocity - 36.0 * to.velocity;
+  State end = to;
+  end.acceleration = (from.acceleration - velocities / (3.0 * duration)) / 3.0;
+  return quintic_hermite(from, end, duration);
+}
+
 }  // namespace interpolated_motion::trajectory

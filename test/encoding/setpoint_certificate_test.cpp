@@ -206,6 +206,27 @@ TEST(DemandAcceleration, OfAStepInAccelerationIsThatOfTheStepInVelocity) {
   EXPECT_NEAR(demand_acceleration(path, GoalTime{0.4}, e), 100.0, 1.0) << "0.1 rad/s within 1 ms";
 }
 
+// From constant velocity into 10 per s^2 at once: the velocity of the demand steps by a sixth of that times
+// the period, and more where two cubics meet that both know of it.
+TEST(AccelerationBeyond, IsFoundBehindTheJoinAlone) {
+  const trajectory::Path even = piece(1.0, {{0.0, 1.0}});
+  const trajectory::Path bent({{GoalTime{0.5}, GoalTime{1.0}, {{0.5, 1.0, 5.0}}}});
+  SetpointEncoding e = encoding(1e6);
+  e.max_acceleration = 12.0;
+  const auto peak = find_acceleration_beyond(even, GoalTime{0.5}, bent, e);
+  ASSERT_TRUE(peak);
+  EXPECT_NEAR(peak->time.count(), 0.51, 1e-9);
+  EXPECT_GT(peak->acceleration, 12.0);
+  // What lies before the join is the drive's already.
+  const trajectory::Path jump(
+      {{GoalTime{0.0}, GoalTime{0.57}, {{0.0, 1.0}}}, {GoalTime{0.57}, GoalTime{1.0}, {{0.57, 9.0}}}});
+  const auto before = find_acceleration_beyond(jump, GoalTime{0.3}, even, e);
+  EXPECT_TRUE(before);  // its end at 1 rad/s is a step down to rest
+  EXPECT_GT(before->time.count(), 0.99);
+  e.order = 1;
+  EXPECT_FALSE(find_acceleration_beyond(even, GoalTime{0.5}, bent, e));
+}
+
 TEST(SetpointCertificate, AccelerationBeyondTheLargestIsRefused) {
   SetpointEncoding e = encoding(1000.0);
   const trajectory::Path path =

@@ -67,6 +67,22 @@ TEST_F(CyclicStream, LossAndJitterStayWithinTheLimitsWithoutAStop) {
             << " rad behind the delay, worst change of velocity " << worst_acceleration << " rad/s^2\n";
 }
 
+// The fine interpolation makes velocity steps of steps in acceleration: at every servo sample.
+TEST_F(CyclicStream, WhatTheDrivesInterpolateKeepsTheLimitOfAcceleration) {
+  stream(20.0, with_loss(0.2, 5));
+  run(2.5);
+  EXPECT_EQ(scenario->state(), GroupState::Idle);
+  double worst = 0.0;
+  for (const Smoothness& joint : smoothness) worst = std::max(worst, joint.acceleration);
+  std::cout << "20 % of 50 Hz lost, jitter of half a period: the drives interpolate " << worst
+            << " rad/s^2 at most\n";
+  // limit_margin, and whole counts: 8 of them over three periods where two cubics meet, 2 in a period
+  // squared.
+  constexpr double kCount = 2.0 * kPi / 200000.0;
+  const double rounding = 8.0 * kCount / (3.0 * kSync * 1e-3) + 2.0 * kCount / (kSync * kSync);
+  EXPECT_LE(worst, 1.2 * kAcceleration + rounding);
+}
+
 TEST_F(CyclicStream, EndsInMotionAtRestWithinTheDistancePredicted) {
   stream(1.25 + kPeriod / 2, [](int) { return 0.001; });  // the sine is fastest here
   const double t = 0.02 * 62;

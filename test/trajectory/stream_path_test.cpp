@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 namespace interpolated_motion::trajectory {
@@ -86,6 +87,53 @@ TEST(StreamPath, NeverLeavesTheLimitsWhateverComes) {
     }
   }
   EXPECT_GT(accepted, 500);
+}
+
+LimitViolation acceleration_violation(GoalTime time, double value) {
+  LimitViolation violation;
+  violation.quantity = Quantity::Acceleration;
+  violation.time = time;
+  violation.value = value;
+  return violation;
+}
+
+/// Of a drive that follows no step of acceleration of more than 1 rad/s^2.
+std::optional<LimitViolation> step_of_acceleration(const Path& path, double from) {
+  for (const Piece& piece : path.pieces()) {
+    const double step = piece.polynomial.state(0.0).acceleration - from;
+    if (std::abs(step) > 1.0) return acceleration_violation(piece.start, step);
+    from = piece.polynomial.state(piece.duration().count()).acceleration;
+  }
+  return std::nullopt;
+}
+
+TEST(StreamPath, AccelerationHasNoStepWhereTheDriveFollowsNone) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int accepted = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const State from{2.0 * unit(random), 1.2 * unit(random), 4.0 * unit(random)};
+    const double ahead = 0.05 + 0.02 * unit(random);
+    const StreamTarget target{at(1.0 + ahead), from.position + from.velocity * ahead + 0.01 * unit(random),
+                              from.velocity + 0.1 * unit(random)};
+    StreamRules held = rules();
+    held.demand = [&from](const Path& path) { return step_of_acceleration(path, from.acceleration); };
+    const auto path = stream_path(from, at(1.0), target, held);
+    if (!path) continue;
+    ++accepted;
+    EXPECT_FALSE(find_limit_violation(path.value(), held.limits)) << i;
+    EXPECT_FALSE(step_of_acceleration(path.value(), from.acceleration)) << i;
+    EXPECT_NEAR(path.value().sample(at(1.0)).velocity, from.velocity, 1e-12) << i;
+  }
+  EXPECT_GT(accepted, 1500);
+}
+
+TEST(StreamPath, WhatTheDriveNeverFollowsIsRefusedWithItsFigure) {
+  StreamRules held = rules();
+  held.demand = [](const Path& path) { return acceleration_violation(path.start_time(), 99.0); };
+  const auto path = stream_path({0.0, 1.0, 0.0}, at(1.0), {at(1.1), 0.1, 1.0}, held);
+  ASSERT_FALSE(path);
+  EXPECT_EQ(path.error().value, 99.0);
 }
 
 TEST(Splice, KeepsThePastAndGoesOnWithTheRest) {

@@ -9,6 +9,7 @@
 #include "interpolated_motion_driver/axis/axis_notes.h"
 #include "interpolated_motion_driver/axis/bus_watch.h"
 #include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/trajectory/stream_path.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -178,6 +179,9 @@ class Axis {
   /// Encodes the way on along `path`, which is the former one up to committed() and ends at rest. Refused
   /// paths leave the axis as it was. Only while committed() is finite.
   virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  /// Tells of a way on behind committed() where the drive would leave the joint's limits with what it makes
+  /// of it. None: what the drive plays is within them where the path is.
+  virtual trajectory::DemandCheck demand_check() const { return {}; }
   /// The records of the way planned last by plan_follow(), as record_slots() gives those of a plan.
   virtual std::vector<RecordSlot> follow_slots() const = 0;
   /// Takes that way, at the same `now`. At the end of the path the axis is finished.

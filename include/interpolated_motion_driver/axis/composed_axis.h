@@ -52,6 +52,7 @@ class ComposedAxis : public Axis {
   std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override {
     return player_->plan_follow(path, pace);
   }
+  trajectory::DemandCheck demand_check() const override { return player_->demand_check(); }
   std::vector<RecordSlot> follow_slots() const override { return player_->follow_slots(); }
   void follow() override { player_->follow(); }
 

@@ -5,6 +5,7 @@
 
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/trajectory/stream_path.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -56,6 +57,9 @@ class Player {
   virtual GoalTime stream_lead() const = 0;
   virtual std::optional<GoalTime> committed() const = 0;
   virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  /// Tells of a way on behind committed() where the drive would leave the joint's limits with what it makes
+  /// of it. None: what the drive plays is within them where the path is.
+  virtual trajectory::DemandCheck demand_check() const { return {}; }
   virtual std::vector<RecordSlot> follow_slots() const = 0;
   virtual void follow() = 0;
 

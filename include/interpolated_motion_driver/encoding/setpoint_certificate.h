@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "interpolated_motion_driver/encoding/transmission.h"
@@ -55,6 +56,20 @@ Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, co
 /// rounded to counts: by differences of its demand from servo sample to servo sample, between the target
 /// positions at `first` and those behind the path. `encoding` must be valid.
 double demand_acceleration(const trajectory::Path& path, GoalTime first, const SetpointEncoding& encoding);
+
+/// An acceleration of what a drive makes of its target positions.
+struct AccelerationPeak {
+  GoalTime time{0.0};         ///< of the target position behind which it occurs
+  double acceleration = 0.0;  ///< magnitude, per s^2
+};
+
+/// The first acceleration beyond `encoding.max_acceleration` when the drive leaves the path `before` for
+/// `way_on` where that starts. `known`: the instant of a target position, not later; what the drive makes of
+/// those up to the start of `way_on` is not judged. Nothing where it keeps that, and for order 1, where an
+/// acceleration means nothing. `encoding` must be valid.
+std::optional<AccelerationPeak> find_acceleration_beyond(const trajectory::Path& before, GoalTime known,
+                                                         const trajectory::Path& way_on,
+                                                         const SetpointEncoding& encoding);
 
 /// Positions of the target instants within the path that certify_setpoints() tries.
 inline constexpr int kSetpointPhases = 4;

@@ -24,6 +24,9 @@ class SetpointPath {
   /// No stream yet: begin() one.
   SetpointPath(trajectory::GoalRules rules, const StreamParameters& parameters);
 
+  /// Of the drive of each joint; empty: none has any.
+  using DemandChecks = std::vector<trajectory::DemandCheck>;
+
   /// A new stream on a course whose goal time 0 is at `origin`, of drives that must know what to do `lead`
   /// ahead.
   void begin(HostTime origin, GoalTime lead);
@@ -35,7 +38,8 @@ class SetpointPath {
   /// one more setpoint, a stop and a rest. Refused when it cannot be reached within the limits, at most
   /// `catch_up` later than it is due, or than `start`.
   Expected<std::vector<trajectory::Path>, Refusal> way_to(const Setpoint& setpoint, GoalTime start,
-                                                          const std::vector<trajectory::State>& from) const;
+                                                          const std::vector<trajectory::State>& from,
+                                                          const DemandChecks& demands = {}) const;
   /// `setpoint` is the newest of the stream; note() it when that is decided.
   void take(const Setpoint& setpoint);
   /// `setpoint` has its place in the stream, by which the velocity of later ones is known: whether the arm

@@ -248,6 +248,21 @@ std::optional<GoalTime> SetpointPlayer::committed() const {
   return GoalTime{seconds(drive_.setpoints().newest() - origin_)};
 }
 
+trajectory::DemandCheck SetpointPlayer::demand_check() const {
+  return [this, encoding = setpoint_encoding(drive_.parameters())](
+             const trajectory::Path& way_on) -> std::optional<trajectory::LimitViolation> {
+    const auto peak = encoding::find_acceleration_beyond(path_, *committed(), way_on, encoding);
+    if (!peak) return std::nullopt;
+    trajectory::LimitViolation violation;
+    violation.quantity = trajectory::Quantity::Acceleration;
+    violation.time = peak->time;
+    violation.value = peak->acceleration;
+    violation.minimum = -encoding.max_acceleration;
+    violation.maximum = encoding.max_acceleration;
+    return violation;
+  };
+}
+
 /// What the drive makes of a target position depends on a few before it: those have been held against the
 /// former way.
 std::optional<Refusal> SetpointPlayer::plan_follow(const trajectory::Path& path, Pace pace) {

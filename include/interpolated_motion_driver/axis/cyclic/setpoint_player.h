@@ -50,6 +50,7 @@ class SetpointPlayer final : public Player {
   GoalTime stream_lead() const override;
   std::optional<GoalTime> committed() const override;
   std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
+  trajectory::DemandCheck demand_check() const override;
   std::vector<RecordSlot> follow_slots() const override { return {}; }
   void follow() override;
 
