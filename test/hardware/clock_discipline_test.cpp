@@ -195,6 +195,7 @@ TEST(ClockDiscipline, IsSwitchedOffByTheConfiguration) {
   Scenario scenario(arm_of(1, "{buses: {can0: {clock_discipline: false}}}"));
   ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
   EXPECT_TRUE(logged(scenario, "clock on its own (clock_discipline is false)"));
+  EXPECT_TRUE(std::isnan(scenario.snapshot().joints[0].clock_error_ppm)) << "nothing has told yet";
 }
 
 /// TIME, as a controller of the plant sends it.

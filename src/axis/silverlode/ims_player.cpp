@@ -234,8 +234,7 @@ void ImsPlayer::poll_starting(HostTime now) {
 /// to do.
 void ImsPlayer::begin_motion(HostTime now) {
   enter(Phase::Moving, now);
-  const double rate = 1.0 + 1e-6 * execution_.clock_error_ppm();
-  const double until_begin = seconds(begin_ - clock_.start_time()) * rate;
+  const double until_begin = seconds(begin_ - clock_.start_time()) * execution_.clock_rate();
   const auto ticks = std::llround((until_begin - feed_.queue_end()) / parameters_.scale.tick);
   if (ticks < 1) return stage_.fail("the start command came too late for the common start", now);
   feed_.wait(ticks);
@@ -284,12 +283,12 @@ void ImsPlayer::end_of_motion(HostTime now) {
   if (!feed_.all_sent() ||
       clock_.most_elapsed(looked) + seconds(parameters_.execution_time) < feed_.duration()) {
     ++underruns_;
-    return stage_.fail(fmt::format("the drive left the interpolated motion {:.3f} s after the start "
-                                   "instead of {:.3f} s: its queue ran "
-                                   "dry, or something has stopped it{}",
-                                   clock_.elapsed(looked), feed_.duration(),
-                                   silverlode::silence_text(stage_.line())),
-                       now);
+    return stage_.fail(
+        fmt::format("the drive left the interpolated motion {:.3f} s after the start "
+                    "instead of {:.3f} s: its queue ran "
+                    "dry, or something has stopped it{}",
+                    clock_.elapsed(looked), feed_.duration(), silverlode::silence_text(stage_.line())),
+        now);
   }
   enter(Phase::Ending, now);
   stage_.sequence().start(
