@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/axis/playback_clock.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace interpolated_motion::axis {
 
@@ -12,7 +13,11 @@ constexpr double kCatchUpTime = 2.0;
 }  // namespace
 
 PlaybackClock::PlaybackClock(double max_error, double sample, Estimate estimate)
-    : max_error_(max_error), sample_(sample), estimate_(estimate) {}
+    : max_error_(max_error),
+      sample_(sample),
+      estimate_(estimate),
+      lowest_rate_(1.0 - max_error),
+      highest_rate_(1.0 + max_error) {}
 
 void PlaybackClock::start(HostTime start, bool follows_host) {
   running_ = true;
@@ -71,6 +76,10 @@ double PlaybackClock::goal_rate(double behind) const {
   return std::clamp(1.0 / rate() + behind / kCatchUpTime, 1.0 - most, 1.0 + most);
 }
 
-double PlaybackClock::error_ppm() const { return running_ ? (rate() - 1.0) * 1e6 : 0.0; }
+double PlaybackClock::error_ppm() const {
+  if (follows_host_) return 0.0;
+  const bool known = lowest_rate_ > 1.0 - max_error_ || highest_rate_ < 1.0 + max_error_;
+  return known ? (rate() - 1.0) * 1e6 : std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace interpolated_motion::axis

@@ -52,7 +52,7 @@ double background_load(const BusConfiguration& bus, const std::vector<DriveConfi
   int drives = 0;
   for (const DriveConfiguration& drive : all_drives) {
     if (drive.bus != bus.name) continue;
-    per_sync += drive.kind->bits_per_sync(bus);
+    per_sync += drive.kind->bits_per_sync(drive, bus);
     ++drives;
   }
   const int period = bus.time_stamp_period();

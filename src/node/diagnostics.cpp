@@ -72,7 +72,8 @@ void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status
   status.add("underruns", joint.underruns);
   status.add("overflows", joint.overflows);
   status.add("refused records", joint.refused_writes);
-  status.add("clock error", fmt::format("{:.1f} ppm", joint.clock_error_ppm));
+  const double error = joint.clock_error_ppm;
+  status.add("clock error", std::isnan(error) ? "unknown" : fmt::format("{:.1f} ppm", error));
 }
 
 void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status) {

@@ -110,6 +110,7 @@ motion::RequestResult HardwareThread::request(std::function<motion::RequestId(Ha
   auto future = promise->get_future();
   post([this, promise, start = std::move(start)](Hardware& hardware, HostTime now) {
     requests_.emplace(start(hardware, now), promise);
+    wake();  // what it sends goes out now, not with the next deadline
   });
   auto result = wait(std::move(future), host_now() + patience);
   if (result) return *result;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 
 #include "interpolated_motion_driver/transport/can_interface.h"
@@ -156,21 +157,30 @@ CanInterface read_link(const nlmsghdr* message) {
   return interface;
 }
 
+std::error_code of_system(int error) { return {error, std::system_category()}; }
+
+/// Of a message that is no description of a link.
+std::error_code refusal_of(const nlmsghdr* message) {
+  const bool tells =
+      message->nlmsg_type == NLMSG_ERROR && message->nlmsg_len >= NLMSG_LENGTH(sizeof(nlmsgerr));
+  return of_system(tells ? -static_cast<const nlmsgerr*>(NLMSG_DATA(message))->error : EBADMSG);
+}
+
 }  // namespace
 
-std::optional<CanInterface> read_can_interface(const std::string& name) {
-  if (name.empty() || name.size() >= IFNAMSIZ) return std::nullopt;
+Expected<CanInterface, std::error_code> read_can_interface(const std::string& name) {
+  if (name.empty() || name.size() >= IFNAMSIZ) return of_system(ENODEV);
   const Descriptor netlink(socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
-  if (netlink.get() < 0) return std::nullopt;
+  if (netlink.get() < 0) return of_system(errno);
   const Request request = request_for(name);
-  if (::send(netlink.get(), &request, sizeof request, 0) < 0) return std::nullopt;
+  if (::send(netlink.get(), &request, sizeof request, 0) < 0) return of_system(errno);
   alignas(nlmsghdr) std::array<char, kAnswerBytes> answer;
   // The kernel has answered by the time send() returns.
   const ssize_t length = recv(netlink.get(), answer.data(), answer.size(), MSG_DONTWAIT);
-  if (length < 0) return std::nullopt;
+  if (length < 0) return of_system(errno);
   const auto* message = reinterpret_cast<const nlmsghdr*>(answer.data());
-  if (!NLMSG_OK(message, static_cast<unsigned>(length)) || message->nlmsg_type != RTM_NEWLINK)
-    return std::nullopt;
+  if (!NLMSG_OK(message, static_cast<unsigned>(length))) return of_system(EBADMSG);
+  if (message->nlmsg_type != RTM_NEWLINK) return refusal_of(message);
   return read_link(message);
 }
 

@@ -81,9 +81,17 @@ class SocketcanBus::Implementation {
   std::uint32_t overflow_seen_ = 0;
 };
 
+// A kernel that cannot be asked just now, for want of a descriptor or of memory, says nothing about the
+// interface.
 void SocketcanBus::Implementation::refresh() {
-  interface = read_can_interface(parameters.interface);
-  if (!interface) return leave(SocketcanState::Missing, missing_text(parameters.interface));
+  const auto found = read_can_interface(parameters.interface);
+  const bool missing = !found && found.error() == std::errc::no_such_device;
+  if (!found && !missing) {
+    if (!socket) leave(SocketcanState::Unusable, unknown_text(parameters.interface, found.error()));
+    return;
+  }
+  interface = found ? std::optional(found.value()) : std::nullopt;
+  if (missing) return leave(SocketcanState::Missing, missing_text(parameters.interface));
   std::string fault = interface_fault(*interface, parameters.bitrate);
   if (!fault.empty()) return leave(SocketcanState::Unusable, std::move(fault));
   if (!interface->up) return leave(SocketcanState::Down, down_text(*interface, parameters.bitrate));

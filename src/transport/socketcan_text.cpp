@@ -32,6 +32,10 @@ std::string missing_text(const std::string& interface) {
       interface, virtual_one);
 }
 
+std::string unknown_text(const std::string& interface, const std::error_code& error) {
+  return fmt::format("CAN interface {}: the kernel cannot be asked about it: {}", interface, error.message());
+}
+
 std::string down_text(const CanInterface& interface, std::uint32_t bitrate) {
   return fmt::format("CAN interface {} is down: {}", interface.name, bring_up_command(interface, bitrate));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <system_error>
 
 #include <boost/system/error_code.hpp>
 
@@ -10,6 +11,7 @@
 namespace interpolated_motion::transport {
 
 std::string missing_text(const std::string& interface);
+std::string unknown_text(const std::string& interface, const std::error_code& error);
 std::string down_text(const CanInterface& interface, std::uint32_t bitrate);
 std::string up_text(const CanInterface& interface);
 std::string bus_off_text(const CanInterface& interface);

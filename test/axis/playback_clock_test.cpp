@@ -17,6 +17,20 @@ TEST(PlaybackClock, StandsAtZeroUntilItIsStarted) {
   EXPECT_DOUBLE_EQ(clock.elapsed(at(12.5)), 2.5);
 }
 
+TEST(PlaybackClock, ErrorIsUnknownUntilSomethingIsSeenAndThenThatOfTheLastMotion) {
+  PlaybackClock clock(1e-3, 1e-3);
+  EXPECT_TRUE(std::isnan(clock.error_ppm()));
+  clock.start(at(0.0));
+  EXPECT_TRUE(std::isnan(clock.error_ppm()));
+  clock.observe_at_least(at(100.0), 100.05);
+  const double seen = clock.error_ppm();
+  EXPECT_NEAR(seen, 490.0, 1.0);
+  clock.stop();
+  EXPECT_EQ(clock.error_ppm(), seen);
+  clock.start(at(200.0), true);
+  EXPECT_EQ(clock.error_ppm(), 0.0);
+}
+
 TEST(PlaybackClock, BoundsAreThoseOfTheCrystalUntilSomethingIsSeen) {
   PlaybackClock clock(1e-3, 1e-3);
   clock.start(at(0.0));

@@ -195,6 +195,39 @@ TEST(ClockDiscipline, IsSwitchedOffByTheConfiguration) {
   Scenario scenario(arm_of(1, "{buses: {can0: {clock_discipline: false}}}"));
   ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
   EXPECT_TRUE(logged(scenario, "clock on its own (clock_discipline is false)"));
+  EXPECT_TRUE(std::isnan(scenario.snapshot().joints[0].clock_error_ppm)) << "nothing has told yet";
+}
+
+/// TIME, as a controller of the plant sends it.
+constexpr const char* kTimeOfDay = "send 100#000000000000";
+
+// An EPOS begins its clock anew with TIME, and the next time stamp of the host is then far away from it: so
+// its clock runs as fast or slowly as the drive corrects it, and the motion with it.
+TEST(ClockDiscipline, TimeOfDayOfAnotherNodeStopsTheMotionAndIsNamed) {
+  Sine arm({"{clock_error_ppm: 100}", "{clock_error_ppm: -100}"}, 20.0);
+  ASSERT_TRUE(arm.run(5.0));
+  arm.inject("can0", kTimeOfDay);
+  EXPECT_TRUE(arm.scenario.run_until([&] { return arm.scenario.state() != GroupState::Moving; }, 0.01));
+  ASSERT_TRUE(arm.scenario.run_until_state(GroupState::Fault, 1.0));
+  const std::string fault = arm.scenario.snapshot().fault;
+  EXPECT_NE(fault.find("TIME, 100#000000000000"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("clock_discipline"), std::string::npos) << fault;
+  EXPECT_LE(arm.worst_estimate, 1e-3);
+}
+
+// Drives on their own crystals do not care.
+TEST(ClockDiscipline, TimeOfDayOfAnotherNodeIsOfNoMatterWithoutIt) {
+  Scenario scenario(arm_of(2, "{buses: {can0: {clock_discipline: false}}}"));
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+  const auto accepted = scenario.submit(sine_goal(2, 5.0));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
+  std::string reason;
+  for (int i = 0; i < 8; ++i) {
+    scenario.run(0.5);
+    ASSERT_TRUE(scenario.driver().inject("can0", kTimeOfDay, &reason, scenario.now())) << reason;
+  }
+  EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, GoalOutcome::Succeeded);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_P(OtherMaster, ThatFallsSilentAtTheStartIsWaitedFor) {
   EXPECT_TRUE(scenario->run_until_state(GroupState::Idle)) << scenario->snapshot().fault;
 }
 
-// TIME (0x100) is not among them: an EPOS sets the clock by it that it plays its records with.
+// TIME (0x100) is not among them, see ClockDiscipline.
 TEST_P(OtherMaster, OfOtherNodesIsNone) {
   move(GetParam().make(""));
   for (const char* frame : {"189#3702", "709#05", "609#4041600000000000", "209#00", "089#0000000000000000",

@@ -149,6 +149,10 @@ Scenario::Scenario(const YAML::Node& parameters, const std::map<std::string, tra
     : driver_(std::make_unique<hardware::MotionHardware>(hardware::parse_configuration(parameters, urdf),
                                                          now_)) {}
 
+Scenario::Scenario(const YAML::Node& parameters, const hardware::DriveKinds& kinds)
+    : driver_(std::make_unique<hardware::MotionHardware>(
+          hardware::parse_configuration(parameters, six_axis_urdf(), {}, kinds), now_)) {}
+
 void Scenario::run(double seconds) {
   run_until([] { return false; }, seconds);
 }

@@ -44,6 +44,8 @@ class Scenario {
  public:
   explicit Scenario(const YAML::Node& parameters = six_axis(),
                     const std::map<std::string, trajectory::JointLimits>& urdf = six_axis_urdf());
+  /// With kinds of drives of the test's own, which must outlive it.
+  Scenario(const YAML::Node& parameters, const hardware::DriveKinds& kinds);
 
   hardware::MotionHardware& driver() { return *driver_; }
   HostTime now() const { return now_; }

@@ -64,10 +64,14 @@ class Program:
     def running(self):
         return self._process.poll() is None
 
+    def send(self, number):
+        """A signal."""
+        self._process.send_signal(number)
+
     def end(self, number=signal.SIGTERM):
         """Its exit code."""
         if self.running():
-            self._process.send_signal(number)
+            self.send(number)
         try:
             code = self._process.wait(PATIENCE)
         finally:

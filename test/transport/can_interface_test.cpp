@@ -1,6 +1,14 @@
 #include "interpolated_motion_driver/transport/can_interface.h"
 
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
 #include <gtest/gtest.h>
+#include <boost/asio/io_context.hpp>
+
+#include "failing_calls/failing_calls.h"
+#include "interpolated_motion_driver/transport/socketcan_bus.h"
 
 namespace interpolated_motion::transport {
 namespace {
@@ -62,14 +70,33 @@ TEST(CanInterface, AdviceOnQueueAndRestart) {
 }
 
 TEST(CanInterface, ThereIsNoneOfAnUnknownNameAndLoopbackIsNotCan) {
-  EXPECT_FALSE(read_can_interface("no_such_link"));
-  EXPECT_FALSE(read_can_interface(""));
-  EXPECT_FALSE(read_can_interface("a_name_of_more_than_fifteen_letters"));
+  for (const char* name : {"no_such_link", "", "a_name_of_more_than_fifteen_letters"}) {
+    const auto none = read_can_interface(name);
+    ASSERT_FALSE(none) << name;
+    EXPECT_EQ(none.error(), std::errc::no_such_device) << name;
+  }
   const auto loopback = read_can_interface("lo");
   ASSERT_TRUE(loopback);
-  EXPECT_EQ(loopback->name, "lo");
-  EXPECT_EQ(loopback->index, 1);
-  EXPECT_FALSE(loopback->can);
+  EXPECT_EQ(loopback.value().name, "lo");
+  EXPECT_EQ(loopback.value().index, 1);
+  EXPECT_FALSE(loopback.value().can);
+}
+
+// For want of a descriptor nothing is known about the interface: it is not missing.
+TEST(CanInterface, KernelThatCannotBeAskedSaysNothingOfIt) {
+  const std::pair<const char*, int> failures[] = {{"socket", EMFILE}, {"send", ENOBUFS}, {"recv", ENOMEM}};
+  for (const auto& [call, error] : failures) {
+    boost::asio::io_context io;
+    SocketcanParameters parameters;
+    parameters.interface = "lo";
+    SocketcanBus bus(io, parameters, HostTime{});
+    const test::FailingCall failing(call, 1, error);
+    const test::Counted counted;
+    bus.poll_interface(HostTime{} + std::chrono::seconds(1));
+    EXPECT_TRUE(failing.has_happened()) << call;
+    EXPECT_EQ(bus.state(), SocketcanState::Unusable) << call;
+    EXPECT_NE(bus.status_text().find(std::strerror(error)), std::string::npos) << bus.status_text();
+  }
 }
 
 }  // namespace

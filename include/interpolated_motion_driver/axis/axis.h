@@ -66,12 +66,13 @@ struct AxisStatus {
   bool velocity_warning = false;
   bool acceleration_warning = false;
   /// Since the driver was started. Underruns: times a drive ran dry; of cyclic ones, SYNCs without a target
-  /// position. Overflows: of EPOS alone (0x20C4:01 bit 9). Refused: records that were lost or not taken.
+  /// position. Overflows: times an EPOS has said so (0x20C4:01 bit 9, which stays), whatever the number of
+  /// records. Refused: records that were lost or not taken.
   std::uint32_t underruns = 0;
   std::uint32_t overflows = 0;
   std::uint32_t refused_writes = 0;
   std::uint64_t records_sent = 0;
-  /// Of the drive's clock, estimated; positive: fast; 0 while unknown, or while it follows the host's.
+  /// Of the drive's clock, estimated; positive: fast; 0 where it follows the host's, NaN while unknown.
   double clock_error_ppm = 0.0;
 };
 

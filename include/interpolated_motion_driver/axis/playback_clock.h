@@ -62,7 +62,8 @@ class PlaybackClock {
   /// seconds. Differs from 1 by at most twice `max_error`; is 1 for a drive that follows the host.
   double goal_rate(double behind) const;
 
-  /// Estimated error of the drive's clock against the host's, ppm; 0 while it follows the host.
+  /// Estimated error of the drive's clock against the host's, ppm, by the motion under way or the last one; 0
+  /// where it follows the host, NaN as long as nothing has been observed.
   double error_ppm() const;
 
  private:
@@ -74,8 +75,8 @@ class PlaybackClock {
   bool running_ = false;
   bool follows_host_ = false;
   HostTime start_{};
-  double lowest_rate_ = 1.0;
-  double highest_rate_ = 1.0;
+  double lowest_rate_;
+  double highest_rate_;
 };
 
 }  // namespace interpolated_motion::axis

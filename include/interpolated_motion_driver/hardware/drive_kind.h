@@ -37,9 +37,11 @@ class DriveKind {
   virtual bool follows_host_time() const { return false; }
   /// Whether motion records for its drives are sent ahead, for which the bus keeps its `max_load` free.
   virtual bool sends_records() const { return false; }
-  /// On CANopen: bits that host and drive exchange at each SYNC, whether anything moves or not, at most; of
-  /// what is sent more seldom its share.
-  virtual double bits_per_sync(const BusConfiguration& /*bus*/) const { return 0.0; }
+  /// On CANopen: bits that host and `drive`, one of this kind, exchange at each SYNC, whether anything moves
+  /// or not, at most; of what is sent more seldom its share.
+  virtual double bits_per_sync(const DriveConfiguration& /*drive*/, const BusConfiguration& /*bus*/) const {
+    return 0.0;
+  }
 
   /// Reads what only drives of this kind have in `drives/<joint>`, and in its `emulation`. `drive` holds what
   /// all drives have already. Never returns null. Throws like ParameterReader.

@@ -46,10 +46,10 @@ struct JointSnapshot {
   double fill_time = 0.0;  ///< s of motion left in the FIFO
   BufferWarnings warnings;
   std::uint32_t underruns = 0;       ///< since start of the driver
-  std::uint32_t overflows = 0;       ///< since start of the driver
+  std::uint32_t overflows = 0;       ///< times the drive has reported one, since start of the driver
   std::uint32_t refused_writes = 0;  ///< records the drive did not take
   std::uint64_t records_sent = 0;    ///< since start of the driver
-  double clock_error_ppm = 0.0;      ///< estimated error of the drive's clock against the host's
+  double clock_error_ppm = 0.0;  ///< estimated, of the drive's clock against the host's; NaN while unknown
 };
 
 /// From a request on a serial line to its reply, s.

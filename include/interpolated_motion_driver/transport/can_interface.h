@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include "interpolated_motion_driver/units/expected.h"
 
 namespace interpolated_motion::transport {
 
@@ -25,8 +28,9 @@ struct CanInterface {
   bool listen_only = false;                      ///< it does not send, nor acknowledge
 };
 
-/// Asks the kernel about an interface. Empty when there is none of that name. Does not wait for hardware.
-std::optional<CanInterface> read_can_interface(const std::string& name);
+/// Asks the kernel about an interface. The error is std::errc::no_such_device when there is none of that
+/// name; any other says why the kernel could not be asked. Does not wait for hardware.
+Expected<CanInterface, std::error_code> read_can_interface(const std::string& name);
 
 /// Command that switches an interface on: "sudo ip link set dev can0 up type can bitrate 1000000
 /// restart-ms 100". `bitrate` 0 and virtual interfaces: without bit rate.

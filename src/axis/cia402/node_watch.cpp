@@ -112,10 +112,17 @@ std::string NodeWatch::text(NodeEvent event, const std::string& lost) const {
     case NodeEvent::OtherMaster:
       break;
   }
+  const canopen::ForeignTraffic& foreign = master_.foreign();
+  if (foreign.master_sets_clocks()) {
+    return fmt::format(
+        "another node on {} sends the time of day ({}), by which drives set the clock of their motion that "
+        "this host sets as well. End that, or set clock_discipline of this bus to false",
+        master_.bus_name(), foreign.master_text());
+  }
   return fmt::format(
       "another master is on {}: it has sent {}, and can command this drive as well. End it; where it is "
       "harmless, set other_masters of this bus to allow",
-      master_.bus_name(), master_.foreign().master_text());
+      master_.bus_name(), foreign.master_text());
 }
 
 std::string NodeWatch::not_operational_text() const {

@@ -87,7 +87,11 @@ std::string ExecutionWatch::stray_text(double off, bool demand) const {
 void ExecutionWatch::learn_clock(HostTime asked, double elapsed) {
   clock_.observe_less_than(asked, elapsed + parameters_.scale.tick);
   clock_.observe_at_least(asked + parameters_.execution_time, elapsed);
-  clock_error_ppm_ = clock_.error_ppm();
+  if (const double error = clock_.error_ppm(); !std::isnan(error)) clock_error_ppm_ = error;
+}
+
+double ExecutionWatch::clock_rate() const {
+  return std::isnan(clock_error_ppm_) ? 1.0 : 1.0 + 1e-6 * clock_error_ppm_;
 }
 
 }  // namespace interpolated_motion::axis

@@ -233,8 +233,7 @@ void ImsPlayer::poll_starting(HostTime now) {
 /// to do.
 void ImsPlayer::begin_motion(HostTime now) {
   enter(Phase::Moving, now);
-  const double rate = 1.0 + 1e-6 * execution_.clock_error_ppm();
-  const double until_begin = seconds(begin_ - clock_.start_time()) * rate;
+  const double until_begin = seconds(begin_ - clock_.start_time()) * execution_.clock_rate();
   const auto ticks = std::llround((until_begin - feed_.queue_end()) / parameters_.scale.tick);
   if (ticks < 1) return stage_.fail("the start command came too late for the common start", now);
   feed_.wait(ticks);

@@ -20,10 +20,13 @@ class CyclicKind : public CanDriveKind {
   double default_deviation_bound() const override { return 5.0; }
   bool follows_host_time() const override { return true; }
 
-  /// Target position, status, and the slower reports by their share.
-  double bits_per_sync(const BusConfiguration& bus) const override {
+  /// Target position with its velocity and, in a frame of its own, its torque, as far as they are asked for;
+  /// status, and the slower reports by their share.
+  double bits_per_sync(const DriveConfiguration& drive, const BusConfiguration& bus) const override {
+    const auto& settings = settings_of<CyclicSettings>(drive);
     const HostDuration period = host_duration(bus.sync_period);
-    return longest_frame_bits(8) + longest_frame_bits(2) + longest_frame_bits(7) +
+    const double torque = settings.torque_per_acceleration == 0.0 ? 0.0 : longest_frame_bits(2);
+    return longest_frame_bits(settings.velocity_feedforward ? 8 : 4) + torque + longest_frame_bits(7) +
            longest_frame_bits(8) / axis::cyclic_pdo::velocity_interval(period) +
            longest_frame_bits(4) / axis::cyclic_pdo::demand_interval(period);
   }

@@ -29,7 +29,9 @@ class EposKind : public CanDriveKind {
   bool sends_records() const override { return true; }
 
   /// A position and a buffer report, and a tenth of a demand report.
-  double bits_per_sync(const BusConfiguration& /*bus*/) const override { return 2.1 * longest_frame_bits(8); }
+  double bits_per_sync(const DriveConfiguration& /*drive*/, const BusConfiguration& /*bus*/) const override {
+    return 2.1 * longest_frame_bits(8);
+  }
 
   std::shared_ptr<const DriveSettings> parse(ParameterReader& reader, ParameterReader& emulation,
                                              const DriveConfiguration& drive) const override {

@@ -75,4 +75,8 @@ std::string ForeignTraffic::master_text() const {
   return master_.count > 0 ? text_of(master_.last) : std::string();
 }
 
+bool ForeignTraffic::master_sets_clocks() const {
+  return master_.count > 0 && master_.last.id == cob_id::kTime;
+}
+
 }  // namespace interpolated_motion::canopen

@@ -62,12 +62,14 @@ void Master::on_foreign_frame(const ReceivedFrame& received) {
   deliver(*nodes_[meaning.node], meaning, received);
 }
 
-/// A time of day is not the master's alone, and nodes that are not ours may have a master of their own.
+/// Nodes that are not ours may have a master of their own. A time of day is of no matter unless this host
+/// sets the drives' clocks: they would take the other's time as well.
 void Master::on_other_master(const CobIdMeaning& meaning, const ReceivedFrame& received) {
   foreign_.count(UnexpectedFrame::OtherMaster, received);
   const bool has_addressee = meaning.service == Service::Rpdo || meaning.service == Service::SdoRequest;
   const bool is_ours = meaning.node == parameters_.own_node_id || find_node(meaning.node) != nullptr;
-  if (meaning.service == Service::Time || (has_addressee && !is_ours)) return;
+  const bool sets_clocks = parameters_.time_stamp_period > 0;
+  if ((meaning.service == Service::Time && !sets_clocks) || (has_addressee && !is_ours)) return;
   foreign_.note_master(received);
   if (meaning.service == Service::SdoRequest && nodes_[meaning.node])
     nodes_[meaning.node]->sdo_answers_.on_request(received.frame);

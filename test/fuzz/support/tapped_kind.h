@@ -21,8 +21,9 @@ class TappedKind : public hardware::DriveKind {
   double default_deviation_bound() const override { return kind_.default_deviation_bound(); }
   bool follows_host_time() const override { return kind_.follows_host_time(); }
   bool sends_records() const override { return kind_.sends_records(); }
-  double bits_per_sync(const hardware::BusConfiguration& bus) const override {
-    return kind_.bits_per_sync(bus);
+  double bits_per_sync(const hardware::DriveConfiguration& drive,
+                       const hardware::BusConfiguration& bus) const override {
+    return kind_.bits_per_sync(drive, bus);
   }
   std::shared_ptr<const hardware::DriveSettings> parse(
       hardware::ParameterReader& reader, hardware::ParameterReader& emulation,

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "hardware/scenario.h"
+#include "interpolated_motion_driver/hardware/can_bits.h"
+#include "interpolated_motion_driver/hardware/drive_kind.h"
 
 // What is sent with each target position: velocity (0x60B1) and torque (0x60B2), and what it makes of the
 // following error of an axis with a lag.
@@ -87,6 +89,22 @@ TEST(FeedForward, OfTorqueTakesTheRest) {
 TEST(FeedForward, ADriveThatTakesNoneIsMovedWithout) {
   const Motion motion = move(lagging_arm("torque_per_acceleration: 4, ", "takes_offsets: false"));
   EXPECT_NEAR(motion.following_error, kLag * motion.velocity, 0.05 * kLag * motion.velocity);
+}
+
+double bits_per_sync(const std::string& drive) {
+  const auto all =
+      hardware::parse_configuration(six_axis_cyclic("{drives: {joint1: " + drive + "}}"), six_axis_urdf());
+  const hardware::DriveConfiguration& first = all.drives.front();
+  return first.kind->bits_per_sync(first, all.bus_of(first));
+}
+
+// The budget of a bus has what is sent, and no more.
+TEST(FeedForward, CountsForTheBusWhereItIsSent) {
+  const double alone = bits_per_sync("{velocity_feedforward: false}");
+  const double velocity = bits_per_sync("{}");
+  const double torque = bits_per_sync("{torque_per_acceleration: 1.0}");
+  EXPECT_EQ(velocity - alone, hardware::longest_frame_bits(8) - hardware::longest_frame_bits(4));
+  EXPECT_EQ(torque - velocity, hardware::longest_frame_bits(2));
 }
 
 }  // namespace

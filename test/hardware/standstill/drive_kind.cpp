@@ -19,7 +19,8 @@ class StandstillKind : public hardware::CanDriveKind {
   const char* product() const override { return "standstill"; }
   double default_deviation_bound() const override { return 1.0; }
   bool follows_host_time() const override { return true; }
-  double bits_per_sync(const hardware::BusConfiguration& /*bus*/) const override {
+  double bits_per_sync(const DriveConfiguration& /*drive*/,
+                       const hardware::BusConfiguration& /*bus*/) const override {
     return hardware::longest_frame_bits(4);
   }
 

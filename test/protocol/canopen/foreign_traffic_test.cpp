@@ -92,6 +92,20 @@ TEST(OtherMasterOnTheBus, IsWhoeverSendsWhatOnlyAMasterSends) {
   }
 }
 
+// Where this host sets the drives' clocks, nobody else may.
+TEST(OtherMasterOnTheBus, IsWhoSendsTheTimeToDrivesThatSetTheirClocksByThisHost) {
+  MasterParameters parameters;
+  parameters.time_stamp_period = 1;
+  Master master("can0", parameters);
+  master.add_node(3);
+  EXPECT_FALSE(master.foreign().master_sets_clocks());
+  master.on_frame(foreign(make_frame(0x100, {0, 0, 0, 0, 0, 0}), at_ms(1)));
+  EXPECT_EQ(master.foreign().of_master(), 1u);
+  EXPECT_TRUE(master.foreign().master_sets_clocks());
+  master.on_frame(foreign(make_frame(0x080, {}), at_ms(2)));
+  EXPECT_FALSE(master.foreign().master_sets_clocks());
+}
+
 TEST(OtherMasterOnTheBus, IsNotThisOne) {
   Master master("can0");
   master.add_node(3);

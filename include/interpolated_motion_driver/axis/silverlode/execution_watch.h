@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -25,8 +26,10 @@ class ExecutionWatch {
   void begin() { misfits_ = strays_ = 0; }
   /// Returns why the motion cannot go on.
   std::optional<std::string> take(const SilverlodeStatus::Execution& look);
-  /// Error of the drive's clock as the last motion has shown it, ppm.
+  /// Error of the drive's clock as the last motion has shown it, ppm; NaN while none has.
   double clock_error_ppm() const { return clock_error_ppm_; }
+  /// Seconds of the drive's clock per second of the host's, as far as is known.
+  double clock_rate() const;
 
  private:
   static std::optional<std::string> misfit(int& in_a_row, std::string text);
@@ -40,7 +43,7 @@ class ExecutionWatch {
   PlaybackClock& clock_;
   int misfits_ = 0;  ///< looks in a row at an execution that does not fit
   int strays_ = 0;   ///< the same, at a position that does not fit
-  double clock_error_ppm_ = 0.0;
+  double clock_error_ppm_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace interpolated_motion::axis

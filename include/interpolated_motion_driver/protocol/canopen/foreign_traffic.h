@@ -29,7 +29,7 @@ struct UnexpectedFrames {
 
 /// What others say on a bus that a master has for itself: frames it has no use for, and those by which
 /// another master gives itself away, since it would command the same drives: NMT, SYNC, an RPDO or an SDO
-/// request to a drive of this master, a heartbeat with its own id.
+/// request to a drive of this master, a heartbeat with its own id, and TIME where it sets the drives' clocks.
 class ForeignTraffic {
  public:
   /// `listen`, >= 0: how long a bus must have been without another master before this one talks. Not `alone`:
@@ -63,6 +63,8 @@ class ForeignTraffic {
   std::uint64_t of_master() const { return alone_ ? master_.count : 0; }
   /// "SYNC, 080#": the last of them; empty when there were none.
   std::string master_text() const;
+  /// The last of them was TIME.
+  bool master_sets_clocks() const;
 
  private:
   std::array<UnexpectedFrames, kUnexpectedFrameCauses> unexpected_{};
