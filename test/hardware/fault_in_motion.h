@@ -44,12 +44,14 @@ class FaultInMotion : public ::testing::Test {
     EXPECT_EQ(result.outcome, motion::GoalOutcome::Aborted);
     EXPECT_TRUE(contains(result.text, text)) << result.text;
     EXPECT_EQ(scenario->state(), motion::GroupState::Fault);
+    const auto told = scenario->positions();
     scenario->run(0.5);
     const auto rest = scenario->positions();
     scenario->run(1.0);
     const auto later = scenario->positions();
     for (std::size_t i = 0; i < rest.size(); ++i) {
       if (static_cast<int>(i) == dead_joint) continue;
+      EXPECT_NEAR(told[i], rest[i], 2e-4) << "joint" << i + 1 << " is told to rest where it does not";
       EXPECT_NEAR(later[i], rest[i], 2e-4) << "joint" << i + 1 << " does not rest";
       const double speed = 3.5;
       const double reach = std::abs(before.joints[i].actual.velocity) * notice +

@@ -234,7 +234,9 @@ void SilverlodePowerStage::press_stop(HostTime now) {
     heard_stop_ = outcome.accepted() || outcome.kind == silverlode::OutcomeKind::Refused;
     return heard_stop_ ? std::nullopt : std::optional<std::string>(device_.text(outcome));
   };
-  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault), commands_.read_faults()}, now);
+  sequence_.start({commands_.stop(heard), commands_.await_rest(kLooksAtFault), commands_.read_faults(),
+                   commands_.read_position()},
+                  now);
 }
 
 std::string SilverlodePowerStage::cause_text() const {

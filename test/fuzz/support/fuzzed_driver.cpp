@@ -192,7 +192,9 @@ void FuzzedDriver::check_snapshot() const {
   for (const auto& joint : snapshot_.joints) {
     require_numbers(joint.joint, {joint.desired.position, joint.desired.velocity, joint.desired.acceleration,
                                   joint.actual.position, joint.actual.velocity, joint.demand_position,
-                                  joint.following_error, joint.fill_time, joint.clock_error_ppm});
+                                  joint.following_error, joint.fill_time});
+    require(std::isfinite(joint.clock_error_ppm) || std::isnan(joint.clock_error_ppm),
+            joint.joint + ": the error of its clock is neither a number nor unknown");
     require(joint.fill <= joint.capacity || joint.capacity == 0,
             joint.joint + ": more records than it can hold");
   }
