@@ -17,7 +17,6 @@ using motion::GoalOutcome;
 using motion::GroupState;
 
 constexpr std::uint32_t kTimeStampId = 0x400 + 127;
-constexpr double kCountsPerRadian = 2000.0 * 100.0 / (2.0 * kPi);
 
 /// `emulation` of each joint, `{}` where there is none.
 std::string drives(const std::vector<std::string>& emulation) {
