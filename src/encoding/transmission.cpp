@@ -1,5 +1,9 @@
 #include "interpolated_motion_driver/encoding/transmission.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace interpolated_motion::encoding {
 
 namespace {
@@ -13,6 +17,12 @@ double Transmission::counts_per_radian() const { return direction * ratio * coun
 
 double Transmission::counts(double joint_position) const {
   return (joint_position - offset) * counts_per_radian();
+}
+
+std::int32_t Transmission::nearest_counts(double joint_position) const {
+  constexpr double kFirst = std::numeric_limits<std::int32_t>::min();
+  constexpr double kLast = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::lround(std::clamp(counts(joint_position), kFirst, kLast)));
 }
 
 double Transmission::joint_position(double counts) const { return offset + counts / counts_per_radian(); }

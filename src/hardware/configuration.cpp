@@ -119,6 +119,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
   c.stop_trajectory_duration =
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
+  c.join_late = reader.choice("join", c.join_late, {{"refuse", false}, {"late", true}});
   c.max_start_ahead = reader.number("max_start_ahead", c.max_start_ahead, 1.0, 1e6);
   c.commit_horizon = reader.number("commit_horizon", c.commit_horizon, 0.1, 60.0);
   c.bring_up_timeout = reader.number("bring_up_timeout", c.bring_up_timeout, 0.5, 600.0);

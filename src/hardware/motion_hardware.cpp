@@ -58,6 +58,7 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
     stopped.push_back(joint.stopped_velocity);
   }
   parameters.rules.allow_partial_joints = configuration.allow_partial_joints_goal;
+  parameters.rules.join_late = configuration.join_late;
   parameters.rules.max_start_ahead = GoalTime{configuration.max_start_ahead};
   parameters.tolerances =
       trajectory::default_tolerances(path, goal, stopped, configuration.constraints.goal_time);

@@ -143,7 +143,8 @@ void Group::poll_settling(HostTime now) {
     if (!have_reported_since(axes_, active_->ended)) return;
     const auto violation = find_goal_violation();
     if (violation && now < settle_deadline()) return;
-    finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation} : Ending{GoalOutcome::Succeeded, {}});
+    finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation}
+                          : Ending{GoalOutcome::Succeeded, {{}, active_->remark}});
   }
   enter(GroupState::Standing);
   poll_standing(now);

@@ -1,12 +1,41 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "interpolated_motion_driver/motion/bus_demands.h"
 #include "interpolated_motion_driver/motion/group.h"
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
 #include "interpolated_motion_driver/trajectory/goal_validation.h"
 
 namespace interpolated_motion::motion {
+
+namespace {
+
+/// Of a goal that has to wait for rest. That its stamp goes by meanwhile, or that where the drives come to
+/// rest by themselves is not known, is none of its sender's doing.
+trajectory::GoalRules rules_of_waiting(trajectory::GoalRules rules, const trajectory::Goal& goal,
+                                       bool sent_in_motion) {
+  rules.join_late = rules.join_late || sent_in_motion || goal.start;
+  rules.sent_in_motion = sent_in_motion;
+  return rules;
+}
+
+/// Whether a goal that the drives do not follow may be tried again with an easier way to its first point, as
+/// GoalRules::least_late of `later()`.
+bool may_be_later(const trajectory::GoalRules& rules, const trajectory::GoalPlan& plan) {
+  constexpr GoalTime kMost{0.8};
+  return rules.join_late && plan.bridge && rules.least_late < kMost;
+}
+
+trajectory::GoalRules later(trajectory::GoalRules rules) {
+  constexpr GoalTime kFirst{0.1};
+  rules.least_late = std::max(kFirst, 2.0 * rules.least_late);
+  return rules;
+}
+
+}  // namespace
 
 Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, HostTime now) {
   const auto& rules = parameters_.rules;
@@ -17,7 +46,7 @@ Expected<GoalAcceptance, Refusal> Group::submit(const trajectory::Goal& goal, Ho
   if (auto refusal = trajectory::validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   if (const auto committed = changeable_from()) return join(goal, *committed, now);
   if (state_ != GroupState::Idle) return replace_running(goal, now);
-  auto planned = plan(goal, now);
+  auto planned = plan(goal, rules, rest_states(axes_), now);
   if (!planned) return planned.error();
   const GoalAcceptance acceptance{next_goal_++, planned.value().lead_in + planned.value().duration,
                                   planned.value().warnings};
@@ -48,7 +77,7 @@ std::optional<Refusal> Group::refuse_now() const {
 Expected<GoalAcceptance, Refusal> Group::replace_running(const trajectory::Goal& goal, HostTime now) {
   if (auto refusal = refuse_from_rest(goal, now)) return *refusal;
   if (pending_) fail_pending("replaced by a newer goal", GoalOutcome::Preempted);
-  pending_ = PendingGoal{next_goal_++, goal};
+  pending_ = PendingGoal{next_goal_++, goal, state_ == GroupState::Stopping};
   const bool ends = plays_course() && committed(axes_) == axis::kEndCommitted;
   if (in_motion() && !ends)
     stop(now, {GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
@@ -57,7 +86,7 @@ Expected<GoalAcceptance, Refusal> Group::replace_running(const trajectory::Goal&
 
 /// Where the group will rest is known unless it is being stopped; then it is the goal alone that can be
 /// judged, from its own first point on.
-std::optional<Refusal> Group::refuse_from_rest(const trajectory::Goal& goal, HostTime now) const {
+std::optional<Refusal> Group::refuse_from_rest(const trajectory::Goal& goal, HostTime now) {
   const std::vector<std::string>& joints = parameters_.rules.joints;
   const bool ends = plays_course() && committed(axes_) == axis::kEndCommitted;
   std::vector<trajectory::State> rest = rest_states(axes_);
@@ -69,7 +98,8 @@ std::optional<Refusal> Group::refuse_from_rest(const trajectory::Goal& goal, Hos
     rest[i].position =
         goal.points.front().positions[static_cast<std::size_t>(name - goal.joint_names.begin())];
   }
-  const auto planned = trajectory::plan_goal(goal, parameters_.rules, rest, now);
+  const auto rules = rules_of_waiting(parameters_.rules, goal, state_ == GroupState::Stopping);
+  const auto planned = plan(goal, rules, rest, now);
   if (!planned) return planned.error();
   return std::nullopt;
 }
@@ -97,11 +127,17 @@ std::optional<GoalResult> Group::take_goal_result() {
   return result;
 }
 
-Expected<trajectory::GoalPlan, Refusal> Group::plan(const trajectory::Goal& goal, HostTime now) {
-  auto planned = trajectory::plan_goal(goal, parameters_.rules, rest_states(axes_), now);
+Expected<trajectory::GoalPlan, Refusal> Group::plan(const trajectory::Goal& goal,
+                                                    const trajectory::GoalRules& rules,
+                                                    const std::vector<trajectory::State>& rest,
+                                                    HostTime now) {
+  auto planned = trajectory::plan_goal(goal, rules, rest, now);
   if (!planned) return planned;
+  const GoalTime wait = wait_after_signal(axes_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (auto refusal = axes_[i]->plan(planned.value().paths[i], wait_after_signal(axes_))) return *refusal;
+    const auto refusal = axes_[i]->plan(planned.value().paths[i], rest[i].position, wait);
+    if (refusal && may_be_later(rules, planned.value())) return plan(goal, later(rules), rest, now);
+    if (refusal) return *refusal;
   }
   if (auto refusal = refuse_beyond_buses(axes_, GoalTime{0.0} - planned.value().lead_in)) return *refusal;
   return planned;
@@ -123,8 +159,14 @@ void Group::start_loading(GoalId id, const trajectory::Goal& goal, trajectory::G
 
 void Group::start_pending(HostTime now) {
   const PendingGoal goal = *std::exchange(pending_, std::nullopt);
-  auto planned = plan(goal.goal, now);
-  if (planned) return start_loading(goal.id, goal.goal, std::move(planned.value()), now);
+  const auto rules = rules_of_waiting(parameters_.rules, goal.goal, goal.sent_in_motion);
+  auto planned = plan(goal.goal, rules, rest_states(axes_), now);
+  if (planned) {
+    const std::string remark = fmt::format("{}", fmt::join(planned.value().warnings, " "));
+    start_loading(goal.id, goal.goal, std::move(planned.value()), now);
+    active_->remark = remark;
+    return;
+  }
   results_.push_back(
       {goal.id, GoalOutcome::Aborted, planned.error().code,
        "The goal replaced another one, and from where the group came to rest it is not possible: " +

@@ -143,6 +143,7 @@ void set_group(Random& random, YAML::Node yaml) {
   if (random.chance(0.3)) yaml["allow_partial_joints_goal"] = true;
   if (random.chance(0.2)) yaml["setpoints"]["linger"] = 0.2;
   if (random.chance(0.2)) yaml["setpoints"]["delay"] = 0.1;
+  if (random.chance(0.2)) yaml["join"] = "late";
 }
 
 YAML::Node draw(Random& random, const std::string& kind) {

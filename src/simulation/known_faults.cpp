@@ -17,10 +17,6 @@ bool fits(const KnownFault& fault, const Violation& violation) {
 
 const std::vector<KnownFault>& known_faults() {
   static const std::vector<KnownFault> faults{
-      {"an accepted replacement is aborted",
-       "accepted is held",
-       {"The goal replaced another one"},
-       "S8, M1, issue 15"},
       {"jitter of SYNC is not in a cyclic drive's certificate",
        "on course",
        {"(cyclic)", "off the path"},

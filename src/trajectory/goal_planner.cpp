@@ -38,20 +38,42 @@ KnotData given(const Waypoint& point) {
   return point.accelerations.empty() ? KnotData::Velocity : KnotData::Acceleration;
 }
 
+/// A goal is made late at most so many times, each time by this at least: the way to the first point may need
+/// more than the shortest way between two states, where the curve goes on behind it.
+constexpr int kMostWays = 40;
+constexpr GoalTime kLeastLack{0.02};
+/// Of the least time that the way takes: a drive that interpolates by itself goes a little beyond what it is
+/// told, so the limit should not be used up.
+constexpr double kEasy = 1.2;
+
 /// The paths of one goal whose points are selected and whose start is decided.
 class PathMaker {
  public:
   PathMaker(const Goal& goal, const GoalRules& rules, const std::vector<State>& present,
-            const PointSelection& selection, const GoalStart& start)
+            PointSelection& selection, const GoalStart& start)
       : goal_(goal), rules_(rules), present_(present), selection_(selection), start_(start) {
     knots_.reserve(selection.points.size() + 1);
   }
 
   GoalTime duration() const { return time_of(selection_.points.back()); }
 
+  /// Gives the way to the first point that was refused the time that it lacks: all points are met so much
+  /// later. The way is smoother then than the points ask for, without a step of acceleration at its ends, so
+  /// that drives can follow it which interpolate by themselves. False if it is not a matter of time.
+  bool meet_later() {
+    if (lack_) meet_later_by(std::max(*lack_, kLeastLack));
+    return lack_.has_value();
+  }
+
+  void meet_later_by(GoalTime late) {
+    late_ = true;
+    selection_.skipped -= late;
+  }
+
   bool names(std::size_t joint) const { return selection_.columns[joint] != kNotNamed; }
 
   Expected<Path, Refusal> make(std::size_t joint) {
+    lack_.reset();
     if (!names(joint)) return resting_path(joint);
     if (auto refusal = check_end(joint)) return *refusal;
     Path path = moving_path(joint);
@@ -92,6 +114,10 @@ class PathMaker {
     result.given = given(point);
     result.state.position = point.positions[column] + start_.shift[joint];
     if (result.given != KnotData::Position) result.state.velocity = point.velocities[column];
+    if (late_ && index == selection_.points.front() && result.given == KnotData::Velocity) {
+      result.given = KnotData::Acceleration;
+      return result;
+    }
     if (result.given == KnotData::Acceleration) result.state.acceleration = point.accelerations[column];
     return result;
   }
@@ -142,10 +168,20 @@ class PathMaker {
                                            [this](std::size_t point) { return stops_at(point); });
   }
 
-  Refusal refuse(std::size_t joint, LimitViolation violation) const {
+  /// At the first point's own time it may be the way there, or the one behind it.
+  bool is_on_bridge(std::size_t joint, const LimitViolation& violation) const {
+    if (!start_.bridge) return false;
     const std::size_t first = selection_.points.front();
-    const bool on_bridge = start_.bridge && violation.time < time_of(first);
+    if (violation.time != time_of(first)) return violation.time < time_of(first);
+    const auto least = least_bridge(joint, first);
+    return !least || *least > time_of(first);
+  }
+
+  Refusal refuse(std::size_t joint, LimitViolation violation) {
+    const std::size_t first = selection_.points.front();
+    const bool on_bridge = is_on_bridge(joint, violation);
     violation.time += selection_.skipped;
+    violation.at_knot = violation.at_knot && !on_bridge;
     Refusal refusal = limit_refusal(rules_.joints[joint], rules_.limits[joint].unit, violation);
     if (stops_at_every_point()) {
       refusal.text +=
@@ -153,12 +189,12 @@ class PathMaker {
           "the velocities "
           "out, and a smooth path is made through the points, or give those that the motion has there.";
     }
-    if (on_bridge) refusal.text += bridge_text(joint, first);
+    if (on_bridge) add_bridge(joint, first, refusal.text);
     return refusal;
   }
 
   /// Where the joint comes from, and what time the way would take.
-  std::string bridge_text(std::size_t joint, std::size_t first) const {
+  void add_bridge(std::size_t joint, std::size_t first, std::string& text) {
     const State& from = present_[joint];
     const JointUnit unit = rules_.limits[joint].unit;
     const std::string start =
@@ -166,11 +202,12 @@ class PathMaker {
             ? fmt::format("rest at the present position {:.6g} {}", from.position, symbol(unit))
             : fmt::format("{:.6g} {} and {:.6g} {}, where the joint will be when the goal can take over",
                           from.position, symbol(unit), from.velocity, symbol(unit, Quantity::Velocity));
-    std::string text = fmt::format(" This is on the way from {} to points[{}], for which there are {:.6f} s.",
-                                   start, first, time_of(first).count());
-    if (const auto least = least_bridge(joint, first))
-      text += fmt::format(" It takes {:.2f} s at least.", least->count());
-    return text;
+    text += fmt::format(" This is on the way from {} to points[{}], for which there are {:.6f} s.", start,
+                        first, time_of(first).count());
+    const auto least = least_bridge(joint, first);
+    if (!least) return;
+    text += fmt::format(" It takes {:.2f} s at least.", least->count());
+    lack_ = kEasy * *least - time_of(first);
   }
 
   /// The shortest time, to a tenth more, in which the first point can be reached; nothing if it is not a
@@ -189,10 +226,29 @@ class PathMaker {
   const Goal& goal_;
   const GoalRules& rules_;
   const std::vector<State>& present_;
-  const PointSelection& selection_;
+  PointSelection& selection_;
   const GoalStart& start_;
+  bool late_ = false;
   std::vector<Knot> knots_;
+  std::optional<GoalTime> lack_;
 };
+
+std::string late_text(const PointSelection& selection, GoalTime late) {
+  return fmt::format(
+      "The points are met {:.2f} s late: there was too little time to reach points[{}] within the limits.",
+      late.count(), selection.points.front());
+}
+
+/// The paths of all joints.
+Expected<std::vector<Path>, Refusal> make_paths(PathMaker& maker, std::size_t joints) {
+  std::vector<Path> paths;
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    auto path = maker.make(joint);
+    if (!path) return path.error();
+    paths.push_back(std::move(path).value());
+  }
+  return paths;
+}
 
 /// Checks the goal's form and picks the points that a path goes through.
 Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRules& rules, HostTime now,
@@ -236,13 +292,17 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   if (!start.value().warning.empty()) plan.warnings.push_back(start.value().warning);
   warn_of_unused_accelerations(goal, plan.warnings);
 
+  const GoalTime due = selection.skipped;
   PathMaker maker(goal, rules, present, selection, start.value());
-  for (std::size_t joint = 0; joint < rules.joints.size(); ++joint) {
-    auto path = maker.make(joint);
-    if (!path) return path.error();
-    plan.paths.push_back(std::move(path).value());
-    plan.named.push_back(maker.names(joint));
-  }
+  plan.bridge = start.value().bridge;
+  if (plan.bridge && rules.least_late.count() > 0.0) maker.meet_later_by(rules.least_late);
+  auto paths = make_paths(maker, rules.joints.size());
+  for (int ways = 1; !paths && rules.join_late && ways < kMostWays && maker.meet_later(); ++ways)
+    paths = make_paths(maker, rules.joints.size());
+  if (!paths) return paths.error();
+  plan.paths = std::move(paths).value();
+  for (std::size_t joint = 0; joint < rules.joints.size(); ++joint) plan.named.push_back(maker.names(joint));
+  if (selection.skipped < due) plan.warnings.push_back(late_text(selection, due - selection.skipped));
   plan.lead_in = start.value().lead_in;
   plan.duration = maker.duration();
   plan.skipped = selection.skipped;

@@ -101,6 +101,10 @@ class StartPoint {
   const std::vector<State>& present_;
 };
 
+constexpr const char* kBrakedWarning =
+    "The joints were braking when the goal was sent: its first point, at time 0, is left out, and the way "
+    "begins where they have come to rest.";
+
 /// Whether any joint is on its way.
 bool in_motion(const std::vector<State>& present) {
   return std::any_of(present.begin(), present.end(),
@@ -127,10 +131,12 @@ Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules
     selection.points.erase(selection.points.begin());
     return start;
   }
-  if (auto refusal = point.check_tolerance(start.shift)) return *refusal;
-  if (const auto joint = point.moving_joint()) {
+  const auto far = point.check_tolerance(start.shift);
+  if (far && !rules.sent_in_motion) return *far;
+  const auto moving = point.moving_joint();
+  if (far || moving) {
     start.bridge = true;
-    start.warning = point.moving_warning(*joint, first);
+    start.warning = far ? kBrakedWarning : point.moving_warning(*moving, first);
     selection.points.erase(selection.points.begin());
     return start;
   }

@@ -98,7 +98,7 @@ class HostStall : public testing::Test {
   }
 
   void load(const trajectory::Path& path) {
-    const auto refusal = axis_->plan(path, GoalTime{0.0});
+    const auto refusal = axis_->plan(path, axis_->rest_position(), GoalTime{0.0});
     ASSERT_FALSE(refusal) << refusal->text;
     axis_->load(now());
     ASSERT_TRUE(comes_to(axis::AxisState::Loaded));

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
+#include "interpolated_motion_driver/trajectory/limits_check.h"
 #include "trajectory/goals.h"
+#include "trajectory/random.h"
 
 // Goals that begin while the joints move: the first point left is reached at its time from the state that
 // they are in.
@@ -20,6 +22,20 @@ Expected<GoalPlan, Refusal> plan(const std::vector<Waypoint>& points, const std:
   const GoalRules rules = rules_for(present.size(), limits);
   goal.joint_names = rules.joints;
   return plan_goal(goal, rules, present, kNow);
+}
+
+/// Two points within reach of each other, with or without velocities.
+std::vector<Waypoint> random_points(Random& random, std::size_t joints) {
+  std::vector<Waypoint> points(2);
+  points[0].time = GoalTime{random.uniform(0.01, 2.0)};
+  points[1].time = points[0].time + GoalTime{random.uniform(3.0, 4.0)};
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    points[0].positions.push_back(random.uniform(-1.0, 1.0));
+    points[1].positions.push_back(points[0].positions.back() + random.uniform(-0.5, 0.5));
+  }
+  if (random.integer(0, 1) == 0) return points;
+  for (Waypoint& point : points) point.velocities.assign(joints, 0.0);
+  return points;
 }
 
 TEST(MovingStart, GoesOnFromPositionVelocityAndAcceleration) {
@@ -59,6 +75,54 @@ TEST(MovingStart, ThatIsTooFastIsRefusedWithTheTimeItTakes) {
   const double time = std::stod(least[1]) + 0.005;
   EXPECT_TRUE(plan({point(time, {3})}, {kMoving}, limits)) << text;
   EXPECT_FALSE(plan({point(0.8 * time, {3})}, {kMoving}, limits)) << text;
+}
+
+// Goals of random points for three joints in random states of motion: each is met as it is, or later, by no
+// more than it takes.
+TEST(MovingStart, JoinsLateByWhatTheWayLacks) {
+  Random random(5);
+  int late = 0;
+  const int cases = property_cases(400);
+  for (int i = 0; i < cases; ++i) {
+    SCOPED_TRACE(i);
+    GoalRules rules = rules_for(3, limits_of(2.0, 6.0));
+    const std::vector<Waypoint> points = random_points(random, rules.joints.size());
+    std::vector<State> present(rules.joints.size());
+    for (State& state : present) state = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0};
+    Goal goal;
+    goal.joint_names = rules.joints;
+    goal.points = points;
+    const auto on_time = plan_goal(goal, rules, present, kNow);
+    rules.join_late = true;
+    const auto planned = plan_goal(goal, rules, present, kNow);
+    ASSERT_TRUE(planned) << planned.error().text;
+    const GoalTime lateness = GoalTime{0.0} - planned.value().skipped;
+    EXPECT_EQ(lateness.count() == 0.0, bool(on_time));
+    EXPECT_EQ(planned.value().warnings.empty(), bool(on_time));
+    late += lateness.count() > 0.0 ? 1 : 0;
+    EXPECT_LE(lateness.count(), 4.0);  // the farthest way, from 2 m/s to rest and back
+    for (std::size_t joint = 0; joint < present.size(); ++joint) {
+      const Path& path = planned.value().paths[joint];
+      EXPECT_FALSE(find_limit_violation(path, rules.limits[joint]));
+      EXPECT_NEAR(path.sample(GoalTime{0.0}).velocity, present[joint].velocity, 1e-9);
+      for (const Waypoint& point : points)
+        EXPECT_NEAR(path.sample(point.time + lateness).position, point.positions[joint], 1e-9);
+    }
+  }
+  EXPECT_GT(late, cases / 4);
+  EXPECT_LT(late, cases);
+}
+
+// What is behind the first point is not a matter of when it is met.
+TEST(MovingStart, IsNotMadeLateForWhatComesBehindIt) {
+  GoalRules rules = rules_for(1, limits_of(1.0, 2.0));
+  rules.join_late = true;
+  Goal goal;
+  goal.joint_names = rules.joints;
+  goal.points = {point(2, {1}, {0}, {0}), point(2.1, {2}, {0}, {0})};
+  const auto refused = plan_goal(goal, rules, {kMoving}, kNow);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().text.find("on the way from"), std::string::npos) << refused.error().text;
 }
 
 }  // namespace

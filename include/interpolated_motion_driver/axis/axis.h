@@ -144,10 +144,12 @@ class Axis {
   /// How long before the path begins the axis must be told when that is to be. Zero: the axis begins at the
   /// start signal of its bus, and where that falls is known only afterwards.
   virtual GoalTime start_lead() const = 0;
-  /// Encodes `path` for the drive without sending anything. Refused plans leave the axis as it was. An axis
-  /// that begins at the start signal rests for `wait` from then on before it sets out; an axis with a lead
-  /// ignores it.
-  virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
+  /// Encodes `path` for the drive without sending anything, from rest at `rest` in joint units. Refused plans
+  /// leave the axis as it was. An axis that begins at the start signal rests for `wait` from then on before
+  /// it sets out; an axis with a lead ignores it. What the drive plays or is being loaded with is not
+  /// touched: so whether a goal will be possible from where a motion ends can be asked before, and load() is
+  /// for a plan made in Ready.
+  virtual std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) = 0;
   /// The records of the plan, for the budget of the bus.
   virtual std::vector<RecordSlot> record_slots() const = 0;
   /// Seconds of bus one record takes, as share of the bus that records may fill.

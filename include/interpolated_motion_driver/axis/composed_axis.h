@@ -33,8 +33,8 @@ class ComposedAxis : public Axis {
 
   double rest_position() const override { return player_->rest_position(); }
   GoalTime start_lead() const override { return player_->start_lead(); }
-  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override {
-    return player_->plan(path, wait);
+  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override {
+    return player_->plan(path, rest, wait);
   }
   std::vector<RecordSlot> record_slots() const override { return player_->record_slots(); }
   double record_bus_time() const override { return player_->record_bus_time(); }

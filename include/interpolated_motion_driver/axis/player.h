@@ -41,7 +41,7 @@ class Player {
   /// the state: plans are for an axis in Ready, arm() is for one in Loaded.
   virtual double rest_position() const = 0;
   virtual GoalTime start_lead() const = 0;
-  virtual std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) = 0;
+  virtual std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) = 0;
   virtual std::vector<RecordSlot> record_slots() const = 0;
   virtual double record_bus_time() const = 0;
   virtual BusWatch bus_watch() const { return {}; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace interpolated_motion::encoding {
 
 /// Simple transmission between a joint and the encoder of its motor:
@@ -16,13 +18,14 @@ struct Transmission {
   /// motor per m.
   static double ratio_of_travel(double travel);
 
-  double counts_per_radian() const;                       ///< signed; per m of a prismatic joint
-  double counts(double joint_position) const;             ///< actuator position in counts, not rounded
-  double joint_position(double counts) const;             ///< rad or m
-  double joint_velocity(double counts_per_second) const;  ///< rad/s or m/s
-  double counts_per_second(double joint_velocity) const;  ///< signed
-  double motor_rpm(double joint_velocity) const;          ///< signed, rpm of the motor
-  double joint_velocity_from_rpm(double rpm) const;       ///< rad/s or m/s
+  double counts_per_radian() const;                          ///< signed; per m of a prismatic joint
+  double counts(double joint_position) const;                ///< actuator position in counts, not rounded
+  std::int32_t nearest_counts(double joint_position) const;  ///< that, rounded; an encoder's last if beyond
+  double joint_position(double counts) const;                ///< rad or m
+  double joint_velocity(double counts_per_second) const;     ///< rad/s or m/s
+  double counts_per_second(double joint_velocity) const;     ///< signed
+  double motor_rpm(double joint_velocity) const;             ///< signed, rpm of the motor
+  double joint_velocity_from_rpm(double rpm) const;          ///< rad/s or m/s
 };
 
 }  // namespace interpolated_motion::encoding

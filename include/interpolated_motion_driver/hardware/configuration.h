@@ -35,6 +35,7 @@ struct Configuration {
   /// deceleration.
   double stop_trajectory_duration = 0.0;
   bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
+  bool join_late = false;                  ///< a first point that cannot be reached in time is met later
   double max_start_ahead = 3600.0;         ///< s from now to a goal's stamp; one further ahead is refused
   double commit_horizon = 0.5;             ///< s of motion kept in the drives' FIFOs
   double bring_up_timeout = 5.0;           ///< s for all drives to answer and be configured

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
@@ -23,6 +24,7 @@ struct ActiveGoal {
   std::vector<trajectory::Path> paths;  ///< of its plan, until the motion begins
   HostTime start{};                     ///< earliest host time at which the motion may begin
   bool begin_is_set = false;            ///< every axis has been told when its path begins
+  std::string remark;                   ///< goes with its success: what was not done to the letter
   HostTime ended = kNever;              ///< when the last drive had played its records
 };
 
@@ -35,8 +37,9 @@ struct LastMotion {
 /// A goal that has been accepted while the group comes to rest, and the drives can no longer be told anything
 /// else; it is planned from where the group stops.
 struct PendingGoal {
-  GoalId id = 0;          ///< as in its GoalAcceptance
-  trajectory::Goal goal;  ///< checked in form only: that it can be executed is not known yet
+  GoalId id = 0;                ///< as in its GoalAcceptance
+  trajectory::Goal goal;        ///< where the rest was not known, not known yet to be possible from there
+  bool sent_in_motion = false;  ///< the drives were braking by themselves
 };
 
 /// How the active goal ends once the group is at rest.

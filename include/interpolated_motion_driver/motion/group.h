@@ -114,9 +114,11 @@ class Group {
                                             GoalTime kept) const;
   void follow(std::vector<trajectory::Path> paths);
   std::optional<GoalTime> changeable_from() const;
-  std::optional<Refusal> refuse_from_rest(const trajectory::Goal& goal, HostTime now) const;
+  std::optional<Refusal> refuse_from_rest(const trajectory::Goal& goal, HostTime now);
   GoalAcceptance accept_stop(HostTime now);
-  Expected<trajectory::GoalPlan, Refusal> plan(const trajectory::Goal& goal, HostTime now);
+  Expected<trajectory::GoalPlan, Refusal> plan(const trajectory::Goal& goal,
+                                               const trajectory::GoalRules& rules,
+                                               const std::vector<trajectory::State>& rest, HostTime now);
   void start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now);
   void start_pending(HostTime now);
   void start_motion(HostTime now);

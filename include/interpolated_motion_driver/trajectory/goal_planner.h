@@ -19,10 +19,12 @@ namespace interpolated_motion::trajectory {
 struct GoalPlan {
   std::vector<Path> paths;  ///< in the order of `GoalRules::joints`
   std::vector<bool> named;  ///< of each joint, by the goal; the path of another one rests
+  bool bridge = false;      ///< the paths begin at the present states, and not at the first point
   GoalTime lead_in{0.0};    ///< length of the move to the first point, in whole ms; 0 or at least 20 ms
   GoalTime duration{0.0};   ///< goal time of the last point, > 0
   /// What was cut off because the goal's stamp was in the past when it was planned: a point at time t of the
-  /// goal is at t - `skipped` of the plan. 0 for a goal without stamp or one that starts later.
+  /// goal is at t - `skipped` of the plan. 0 for a goal without stamp or one that starts later; less by what
+  /// all points are met late (`GoalRules::join_late`).
   GoalTime skipped{0.0};
   std::vector<std::string> warnings;  ///< for the log: the goal is executed, though not to the letter
 };
@@ -35,14 +37,18 @@ struct GoalPlan {
 ///   rest to rest, at no more than half of their limits, in -`lead_in` .. 0. Nearer than that the path begins
 ///   at the point itself.
 /// - First point at time 0 with a velocity above `kRestVelocity`: it cannot be met from rest. As in
-///   joint_trajectory_controller the present state takes its place; a warning says so.
+///   joint_trajectory_controller the present state takes its place; a warning says so. Likewise one that is
+///   out of tolerance for joints that were braking when the goal was sent (`GoalRules::sent_in_motion`).
 /// - First point later: the path bridges from rest at the present position, beginning at 0.
 ///   `start_tolerance` does not apply, the limits do.
 /// While any joint is in motion (as joint_trajectory_controller):
 /// - A first point at time 0 cannot be met: the present states take its place.
-/// - The path bridges from the present states to the first point that is left, at its time. A way that the
-///   limits do not allow is refused, with the least time that it would take.
+/// - The path bridges from the present states to the first point that is left, at its time.
 /// - Joints that the goal does not name are planned as if they rested: what they do is up to the caller.
+///
+/// A way to the first point for which there is too little time, from rest or in motion, is refused with the
+/// least time that it would take; with `GoalRules::join_late` it gets that time, all points are met so much
+/// later, and a warning says so.
 ///
 /// Always:
 /// - Positions of a continuous joint are shifted, all alike, by the multiple of 2 pi that brings the first

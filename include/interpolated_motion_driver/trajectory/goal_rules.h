@@ -37,6 +37,15 @@ struct GoalRules {
   std::vector<double> lead_in_threshold;
   /// Accept goals that name some of the joints only; the others rest where they are.
   bool allow_partial_joints = false;
+  /// Where the first point cannot be reached in time within the limits, it and all others are met that much
+  /// later; else such a goal is refused.
+  bool join_late = false;
+  /// With `join_late`: how much later at least, >= 0, where the way to the first point begins at the present
+  /// positions. More than the limits ask for is for drives that interpolate by themselves.
+  GoalTime least_late{0.0};
+  /// The joints were braking when the goal was sent, and have come to rest since. A first point at time 0 out
+  /// of tolerance is then left out, as for joints in motion.
+  bool sent_in_motion = false;
   /// A goal whose stamp is further ahead is refused: no planner waits so long, but a clock that is wrong may
   /// say so.
   GoalTime max_start_ahead{3600.0};

@@ -37,9 +37,9 @@ struct GoalStart {
 };
 
 /// Decides how the goal starts, by the rules of `plan_goal`. Where the first point cannot be met because it
-/// moves, or the joints do, it is taken out of `selection`. Refused (InvalidGoal): a first point at 0 farther
-/// from the present position than the joint's start tolerance; one that is the only point, in the words of
-/// joint_trajectory_controller, which drops it.
+/// moves, or the joints do, or did when the goal was sent, it is taken out of `selection`. Refused
+/// (InvalidGoal): a first point at 0 farther from the present position than the joint's start tolerance; one
+/// that is the only point, in the words of joint_trajectory_controller, which drops it.
 Expected<GoalStart, Refusal> plan_start(const Goal& goal, const GoalRules& rules,
                                         const std::vector<State>& present, PointSelection& selection);
 

@@ -147,7 +147,7 @@ bool SetpointPlayer::send(std::int32_t target) {
 
 // A goal's way.
 
-std::optional<Refusal> SetpointPlayer::plan(const trajectory::Path& path, GoalTime) {
+std::optional<Refusal> SetpointPlayer::plan(const trajectory::Path& path, double, GoalTime) {
   const auto certificate = encoding::certify_setpoints(path, setpoint_encoding(drive_.parameters()));
   if (!certificate) return certificate.error();
   planned_ = path;

@@ -116,8 +116,8 @@ HostDuration PvtPlayer::longest_motion(HostTime now) const {
 
 // Plan and load.
 
-std::optional<Refusal> PvtPlayer::plan(const trajectory::Path& path, GoalTime wait) {
-  auto plan = plan_pvt_goal(drive_, path, wait, rest_counts_);
+std::optional<Refusal> PvtPlayer::plan(const trajectory::Path& path, double rest, GoalTime wait) {
+  auto plan = plan_pvt_goal(drive_, path, wait, drive_.parameters().transmission.nearest_counts(rest));
   if (!plan) return plan.error();
   planned_ = std::move(plan.value());
   return std::nullopt;

@@ -163,9 +163,11 @@ HostDuration ImsPlayer::longest_motion(HostTime now) const {
 
 // From a path to a drive that plays it.
 
-std::optional<Refusal> ImsPlayer::plan(const trajectory::Path& path, GoalTime) {
-  auto plan = plan_ims_goal(parameters_, *delivery_, stage_.line(), path, rest_counts_);
+std::optional<Refusal> ImsPlayer::plan(const trajectory::Path& path, double rest, GoalTime) {
+  const std::int32_t counts = parameters_.transmission.nearest_counts(rest);
+  auto plan = plan_ims_goal(parameters_, *delivery_, stage_.line(), path, counts);
   if (!plan) return plan.error();
+  plan.value().lead = planned_.lead;  // of what is loaded
   planned_ = std::move(plan.value());
   return std::nullopt;
 }

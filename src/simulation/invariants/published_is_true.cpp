@@ -1,5 +1,6 @@
 #include "simulation/invariants/published_is_true.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -65,8 +66,17 @@ void PublishedIsTrue::look(const Look& look) {
   for (std::size_t i = 0; i < snapshot.joints.size(); ++i) check_joint(i, snapshot.joints[i], look);
 }
 
+bool DesiredIsSmooth::is_as_before(const motion::Snapshot& snapshot) const {
+  return std::equal(
+      desired_.begin(), desired_.end(), snapshot.joints.begin(), snapshot.joints.end(),
+      [](double before, const motion::JointSnapshot& joint) { return before == joint.desired.position; });
+}
+
 void DesiredIsSmooth::look(const Look& look) {
-  if (!look.is_host_there) return;
+  if (!look.is_host_there) {
+    was_away_ = true;
+    return;
+  }
   const motion::Snapshot& snapshot = *look.snapshot;
   const bool known =
       desired_.size() == snapshot.joints.size() && !is_at_rest(state_) && !is_at_rest(snapshot.state);
@@ -79,9 +89,11 @@ void DesiredIsSmooth::look(const Look& look) {
     fail(fmt::format("{}: the desired position jumps by {:.4f} rad as the group goes from {} to {}",
                      joint.label(), jump, motion::to_string(state_), motion::to_string(snapshot.state)));
   }
+  // An order may be carried out before the first reports are read that have come meanwhile.
+  was_away_ = was_away_ && is_as_before(snapshot);
+  if (!was_away_) time_ = look.now;
   desired_.resize(snapshot.joints.size());
   for (std::size_t i = 0; i < desired_.size(); ++i) desired_[i] = snapshot.joints[i].desired.position;
-  time_ = look.now;
   state_ = snapshot.state;
 }
 

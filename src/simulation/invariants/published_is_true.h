@@ -33,8 +33,11 @@ class DesiredIsSmooth : public Invariant {
   void look(const Look& look) override;
 
  private:
+  bool is_as_before(const motion::Snapshot& snapshot) const;
+
   std::vector<double> desired_;
-  HostTime time_{};
+  HostTime time_{};        ///< of `desired_`
+  bool was_away_ = false;  ///< the host, and nothing new has been published since
   motion::GroupState state_ = motion::GroupState::Starting;
 };
 

@@ -121,11 +121,10 @@ TEST_P(SharedAddressAtAnyDelay, StopsTheMotion) {
     EXPECT_NEAR(scenario->positions()[i], rest[i], 1e-4) << "joint" << i + 1;
 }
 
-// Another delay that does not do is in docs/field_trial.md. Replies that overlap, as those of two drives of
-// one make do.
+// Replies that overlap, as those of two drives of one make do.
 INSTANTIATE_TEST_SUITE_P(Overlapping, SharedAddress, ::testing::Values(0.0003, 0.001));
 INSTANTIATE_TEST_SUITE_P(Delays, SharedAddressAtAnyDelay,
-                         ::testing::Values(0.0, 0.0003, 0.001, 0.0025, 0.015));
+                         ::testing::Values(0.0, 0.0003, 0.001, 0.0025, 0.004, 0.006, 0.009, 0.015));
 
 }  // namespace
 }  // namespace interpolated_motion::test

@@ -95,7 +95,7 @@ class SilverlodeHostStall : public testing::Test {
   /// Until `for_seconds` after the begin of the path.
   void move(double for_seconds, double cruise = 8.0) {
     prepare();
-    const auto refusal = axis.plan(there(cruise), GoalTime{0.0});
+    const auto refusal = axis.plan(there(cruise), axis.rest_position(), GoalTime{0.0});
     ASSERT_FALSE(refusal) << refusal->text;
     axis.load(now());
     ASSERT_TRUE(comes_to(AxisState::Loaded)) << axis.fault_text();

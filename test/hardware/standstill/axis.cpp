@@ -59,7 +59,8 @@ void StandstillAxis::lose(const std::string& reason) {
   fault_text_ = fmt::format("{}: {}.", who(), reason);
 }
 
-std::optional<Refusal> StandstillAxis::plan(const trajectory::Path& path, GoalTime /*wait*/) {
+std::optional<Refusal> StandstillAxis::plan(const trajectory::Path& path, double /*rest*/,
+                                            GoalTime /*wait*/) {
   const double here = parameters_.transmission.counts(feedback_.position);
   for (const trajectory::Piece& piece : path.pieces()) {
     for (double look = 0.0; look <= kLooksAtAPiece; ++look) {

@@ -33,7 +33,7 @@ class StandstillAxis : public axis::Axis {
 
   double rest_position() const override { return feedback_.position; }
   GoalTime start_lead() const override { return GoalTime{0.02}; }
-  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
   std::vector<axis::RecordSlot> record_slots() const override { return {}; }
   double record_bus_time() const override { return 0.0; }
   void load(HostTime) override { state_ = axis::AxisState::Loaded; }
@@ -45,7 +45,7 @@ class StandstillAxis : public axis::Axis {
   GoalTime stream_lead() const override { return GoalTime{0.0}; }
   std::optional<GoalTime> committed() const override { return playback(polled_); }
   std::optional<Refusal> plan_follow(const trajectory::Path& path, axis::Pace) override {
-    return plan(path, {});
+    return plan(path, rest_position(), {});
   }
   std::vector<axis::RecordSlot> follow_slots() const override { return {}; }
   void follow() override { path_ = planned_; }

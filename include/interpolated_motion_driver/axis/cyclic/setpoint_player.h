@@ -37,7 +37,7 @@ class SetpointPlayer final : public Player {
 
   double rest_position() const override;
   GoalTime start_lead() const override;
-  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
   /// None: target positions go to the bus at rest as well, so no goal adds to what the bus carries.
   std::vector<RecordSlot> record_slots() const override { return {}; }
   double record_bus_time() const override { return drive_.parameters().record_bus_time; }

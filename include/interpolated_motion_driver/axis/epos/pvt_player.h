@@ -38,7 +38,7 @@ class PvtPlayer final : public Player {
 
   double rest_position() const override;
   GoalTime start_lead() const override { return GoalTime{0.0}; }
-  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override {
     return planned_.feed.slots(planned_.start - planned_.wait);
   }

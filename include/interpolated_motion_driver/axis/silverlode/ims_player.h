@@ -47,7 +47,7 @@ class ImsPlayer final : public SegmentPlayer {
 
   double rest_position() const override;
   GoalTime start_lead() const override;
-  std::optional<Refusal> plan(const trajectory::Path& path, GoalTime wait) override;
+  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
   std::vector<RecordSlot> record_slots() const override { return planned_.slots; }
   double record_bus_time() const override { return delivery_->record_bus_time(); }
   BusWatch bus_watch() const override;

@@ -1,0 +1,100 @@
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hardware/kinds_of_arms.h"
+#include "hardware/scenario.h"
+
+// Goals that are sent when the drives can no longer be told anything else, and wait until they rest.
+namespace interpolated_motion::test {
+namespace {
+
+using motion::GoalOutcome;
+using motion::GroupState;
+
+const std::vector<double> kThere(6, 0.3);
+const std::vector<double> kBack(6, 0.25);
+
+/// Through `kThere` to `kBack`, at rest in both.
+trajectory::Goal there_and_back(double there, double back) {
+  return make_goal({there, back}, {kThere, kBack},
+                   {std::vector<double>(6, 0.0), std::vector<double>(6, 0.0)});
+}
+
+class WaitingGoal : public ::testing::TestWithParam<KindOfArm> {
+ protected:
+  void move(double for_seconds) {
+    ASSERT_TRUE(scenario_.run_until_state(GroupState::Idle, 10.0)) << scenario_.snapshot().fault;
+    const auto accepted =
+        scenario_.submit(make_goal({0.0, 2.0}, {scenario_.positions(), std::vector<double>(6, 0.0)}));
+    ASSERT_TRUE(accepted) << accepted.error().text;
+    first_ = accepted.value().id;
+    ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
+    scenario_.run(for_seconds);
+  }
+
+  Scenario scenario_{GetParam().arm("{}")};
+  motion::GoalId first_ = 0;
+};
+
+// The time of its first point goes by while the arm brakes: there is no sense in giving up for that.
+TEST_P(WaitingGoal, OfAStampIsMetLaterThanItIsDue) {
+  move(1.0);
+  scenario_.driver().cancel(first_, scenario_.now());
+  trajectory::Goal goal = there_and_back(0.2, 0.4);
+  goal.start = scenario_.now();
+  const auto accepted = scenario_.submit(goal);
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  const auto result = scenario_.result_of(accepted.value().id, 20.0);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  EXPECT_NE(result.text.find(" s late"), std::string::npos) << result.text;
+  for (const double position : scenario_.positions()) EXPECT_NEAR(position, kBack[0], 0.01);
+}
+
+// Who plans while the arm brakes cannot know where it will rest.
+TEST_P(WaitingGoal, SentWhileTheArmBrakesGoesWithoutItsFirstPoint) {
+  move(0.8);
+  scenario_.driver().cancel(first_, scenario_.now());
+  const auto elsewhere = make_goal({0.0, 2.0}, {std::vector<double>(6, 1.0), kBack});
+  const auto accepted = scenario_.submit(elsewhere);
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  const auto result = scenario_.result_of(accepted.value().id, 20.0);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  EXPECT_NE(result.text.find("were braking"), std::string::npos) << result.text;
+  for (const double position : scenario_.positions()) EXPECT_NEAR(position, kBack[0], 0.01);
+  EXPECT_FALSE(scenario_.submit(elsewhere));  // at rest it is told
+}
+
+// Within the limits, but with steps of acceleration at both ends: more than a cyclic drive makes smooth.
+TEST_P(WaitingGoal, GetsAWayThatItsDrivesCanFollow) {
+  move(1.0);
+  scenario_.driver().cancel(first_, scenario_.now());
+  const auto accepted = scenario_.submit(make_goal({0.32}, {kThere}, {std::vector<double>(6, 0.0)}));
+  ASSERT_TRUE(accepted) << accepted.error().text;
+  EXPECT_EQ(scenario_.result_of(accepted.value().id, 20.0).outcome, GoalOutcome::Succeeded);
+  for (const double position : scenario_.positions()) EXPECT_NEAR(position, kThere[0], 0.01);
+}
+
+// Where the motion ends is known, so what is not possible from there is said at once, as it would be at rest:
+// here a cubic near the limit of acceleration, which begins with a step of it. A cyclic drive interpolates
+// beyond the limit then.
+TEST_P(WaitingGoal, ThatIsNotPossibleFromTheEndIsRefusedWhenItIsSent) {
+  move(0.0);
+  ASSERT_TRUE(scenario_.run_until([this] { return scenario_.state() == GroupState::Settling; }, 5.0));
+  const auto cubic = make_goal({0.303}, {kThere}, {std::vector<double>(6, 0.0)});
+  const auto waiting = scenario_.submit(cubic);
+  if (waiting) {
+    EXPECT_EQ(scenario_.result_of(waiting.value().id).outcome, GoalOutcome::Succeeded);
+  }
+  ASSERT_TRUE(scenario_.run_until_state(GroupState::Idle, 10.0));
+  EXPECT_EQ(bool(waiting), bool(scenario_.submit(waiting ? there_and_back(1.0, 2.0) : cubic)));
+  EXPECT_EQ(bool(waiting),
+            std::string(GetParam().name) == "epos" || std::string(GetParam().name) == "silverlode");
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, WaitingGoal, ::testing::ValuesIn(kKindsOfArms),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+}  // namespace
+}  // namespace interpolated_motion::test
