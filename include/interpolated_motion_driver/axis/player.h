@@ -38,7 +38,7 @@ class Player {
   // For the group.
 
   /// Called through Axis, which says what each of them does and owes the group. It is the caller who looks at
-  /// the state: plans are for an axis in Ready, arm() is for one in Loaded.
+  /// the state: load() is for an axis in Ready that has a plan, arm() for one in Loaded.
   virtual double rest_position() const = 0;
   virtual GoalTime start_lead() const = 0;
   virtual std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) = 0;
