@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/hardware/assembly.h"
+#include "interpolated_motion_driver/hardware/group_parameters.h"
 #include "interpolated_motion_driver/hardware/recorder_tap.h"
 #include "interpolated_motion_driver/motion/group.h"
 #include "interpolated_motion_driver/recording/yaml_text.h"
@@ -16,57 +17,8 @@ namespace interpolated_motion::hardware {
 
 namespace {
 
-/// A position nearer to a goal's first point than half a count is at that point, for a drive that knows whole
-/// counts.
-constexpr double kLeadInCounts = 0.5;
 /// Shortest step of the loop: deadlines that lie closer together are served together.
 constexpr HostDuration kShortestStep = std::chrono::microseconds(50);
-
-/// As a recording calls it.
-const char* verb_of(motion::RequestKind kind) {
-  switch (kind) {
-    case motion::RequestKind::Enable:
-      return "enable";
-    case motion::RequestKind::Disable:
-      return "disable";
-    case motion::RequestKind::ShutDown:
-      return "shut_down";
-    case motion::RequestKind::ResetFaults:
-      return "reset";
-    case motion::RequestKind::Halt:
-      return "halt";
-    case motion::RequestKind::ClearBuffers:
-      break;
-  }
-  return "clear";
-}
-
-motion::GroupParameters group_parameters(const Configuration& configuration) {
-  motion::GroupParameters parameters;
-  std::vector<double> path;
-  std::vector<double> goal;
-  std::vector<double> stopped;
-  for (const DriveConfiguration& drive : configuration.drives) {
-    const ConstraintConfiguration::Joint& joint = configuration.constraints.joints.at(drive.joint);
-    parameters.rules.joints.push_back(drive.joint);
-    parameters.rules.limits.push_back(drive.limits);
-    parameters.rules.start_tolerance.push_back(joint.start);
-    parameters.rules.lead_in_threshold.push_back(kLeadInCounts /
-                                                 std::abs(drive.transmission.counts_per_radian()));
-    path.push_back(joint.trajectory);
-    goal.push_back(joint.goal);
-    stopped.push_back(joint.stopped_velocity);
-  }
-  parameters.rules.allow_partial_joints = configuration.allow_partial_joints_goal;
-  parameters.rules.join_late = configuration.join_late;
-  parameters.rules.max_start_ahead = GoalTime{configuration.max_start_ahead};
-  parameters.tolerances =
-      trajectory::default_tolerances(path, goal, stopped, configuration.constraints.goal_time);
-  parameters.settle_timeout = host_duration(configuration.settle_timeout);
-  parameters.stream = configuration.setpoints;
-  parameters.enable_on_start = configuration.enable_on_start;
-  return parameters;
-}
 
 }  // namespace
 
@@ -83,6 +35,7 @@ class MotionHardware::Implementation {
   HostTime now;
   Assembly assembly;
   std::optional<motion::Group> group;
+  std::optional<GoalDesk> desk;
   std::vector<JointHandle> handles;
   EventLog log;
   RecorderTap tap;
@@ -103,6 +56,7 @@ class MotionHardware::Implementation {
   void log_unexpected_traffic();
 
   std::vector<JointValues> values_;
+  axis::AxisStatus status_;  ///< scratch
   HostDuration write_period_;
   HostTime commands_due_ = HostTime::min();
   std::uint64_t seen_motion_ = 0;
@@ -129,6 +83,7 @@ MotionHardware::Implementation::Implementation(const Configuration& configuratio
   for (const auto& link : assembly.links()) signals.push_back(link.get());
   log.set_observer([this](const LogEntry& entry) { tap.log(now, entry); });
   group.emplace(group_parameters(configuration), std::move(members), std::move(signals), now);
+  desk.emplace(*group);
 }
 
 // Emulated drives and the driver take turns in the order of virtual time: the driver runs at each frame and
@@ -144,7 +99,6 @@ void MotionHardware::Implementation::update(HostTime until) {
     tap.note_call(std::max(now, next_deadline()), until);
     step(until);
   }
-  refresh_handles();
 }
 
 void MotionHardware::Implementation::step(HostTime time) {
@@ -155,6 +109,7 @@ void MotionHardware::Implementation::step(HostTime time) {
     link->poll(now);
   }
   group->poll(now);
+  desk->poll(now);
   take_notes();
   follow_group();
   tap.look(now, *group, assembly.links());
@@ -162,7 +117,7 @@ void MotionHardware::Implementation::step(HostTime time) {
 }
 
 HostTime MotionHardware::Implementation::next_deadline() const {
-  HostTime next = group->next_deadline();
+  HostTime next = std::min(group->next_deadline(), desk->next_deadline());
   for (const auto& link : assembly.links()) next = std::min(next, link->next_deadline());
   return next;
 }
@@ -222,14 +177,13 @@ void MotionHardware::Implementation::log_unexpected_traffic() {
 }
 
 void MotionHardware::Implementation::refresh_handles() {
-  axis::AxisStatus status;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const axis::Axis& axis = *assembly.axes()[i];
     const axis::AxisFeedback& feedback = axis.feedback();
-    axis.status(now, status);
+    axis.status(now, status_);
     values_[i].position = feedback.position;
     values_[i].velocity = feedback.velocity;
-    values_[i].demand = status.demand_position;
+    values_[i].demand = status_.demand_position;
   }
 }
 
@@ -252,7 +206,7 @@ std::optional<Refusal> MotionHardware::Implementation::take_commands(HostTime ti
 
 motion::RequestId MotionHardware::Implementation::request(motion::RequestKind kind, HostTime time) {
   const motion::RequestId id = group->request(kind, time);
-  tap.recorder().order(time, verb_of(kind), fmt::format("request: {}", id));
+  tap.request(time, kind, id);
   return id;
 }
 
@@ -263,7 +217,10 @@ MotionHardware::MotionHardware(const Configuration& configuration, HostTime now,
 
 MotionHardware::~MotionHardware() = default;
 
-void MotionHardware::read(HostTime now, HostDuration) { implementation_->update(now); }
+void MotionHardware::read(HostTime now, HostDuration) {
+  implementation_->update(now);
+  implementation_->refresh_handles();
+}
 
 std::optional<Refusal> MotionHardware::write(HostTime now, HostDuration) {
   auto refusal = implementation_->take_commands(now);
@@ -286,9 +243,29 @@ const std::vector<JointHandle>& MotionHardware::joints() const { return implemen
 
 Expected<motion::GoalAcceptance, Refusal> MotionHardware::submit(const trajectory::Goal& goal, HostTime now) {
   auto answer = implementation_->group->submit(goal, now);
-  implementation_->tap.recorder().goal(now, goal, answer);
+  implementation_->tap.recorder().goal(now, std::make_shared<const trajectory::Goal>(goal), answer);
   return answer;
 }
+
+Ticket MotionHardware::submit_later(motion::GoalPtr goal, HostTime now) {
+  return implementation_->desk->submit(std::move(goal), now);
+}
+
+void MotionHardware::withdraw(Ticket ticket, HostTime) { implementation_->desk->withdraw(ticket); }
+
+std::optional<GoalAnswer> MotionHardware::take_goal_answer() {
+  auto answer = implementation_->desk->take_answer();
+  if (answer) implementation_->tap.recorder().goal(implementation_->now, answer->goal, answer->answer);
+  return answer;
+}
+
+void MotionHardware::set_planner(Planner planner) { implementation_->desk->set_planner(std::move(planner)); }
+
+void MotionHardware::planned(const motion::Planning& planning, HostDuration taken, HostTime now) {
+  implementation_->desk->planned(planning, taken, now);
+}
+
+void MotionHardware::set_planning_time(HostDuration time) { implementation_->desk->set_planning_time(time); }
 
 void MotionHardware::cancel(motion::GoalId goal, HostTime now) {
   implementation_->tap.recorder().order(now, "cancel", fmt::format("goal: {}", goal));
@@ -352,7 +329,7 @@ motion::MotionReport MotionHardware::report() const {
 }
 
 bool MotionHardware::query(HostTime time, std::vector<trajectory::State>& out) const {
-  return implementation_->group->query(time, out);
+  return implementation_->group->query(time, out) || implementation_->tap.history().at(time, out);
 }
 
 std::optional<MotionHardware::LogEntry> MotionHardware::take_log() { return implementation_->log.take(); }

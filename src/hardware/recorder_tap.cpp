@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include <fmt/format.h>
+
 namespace interpolated_motion::hardware {
 
 namespace {
@@ -36,10 +38,30 @@ const char* name_of(Severity severity) {
   return "error";
 }
 
+/// As a recording calls it.
+const char* verb_of(motion::RequestKind kind) {
+  switch (kind) {
+    case motion::RequestKind::Enable:
+      return "enable";
+    case motion::RequestKind::Disable:
+      return "disable";
+    case motion::RequestKind::ShutDown:
+      return "shut_down";
+    case motion::RequestKind::ResetFaults:
+      return "reset";
+    case motion::RequestKind::Halt:
+      return "halt";
+    case motion::RequestKind::ClearBuffers:
+      break;
+  }
+  return "clear";
+}
+
 }  // namespace
 
 RecorderTap::RecorderTap(const Configuration& configuration, HostTime start)
-    : recorder_(settings_of(configuration.flight_recorder), subject_of(configuration), start) {
+    : recorder_(settings_of(configuration.flight_recorder), subject_of(configuration), start),
+      history_(configuration.joints.size()) {
   wire_.frame = [this](const std::string& bus, const canopen::ReceivedFrame& frame) {
     recorder_.frame(bus, frame);
     if (observer_.frame) observer_.frame(bus, frame);
@@ -50,12 +72,26 @@ RecorderTap::RecorderTap(const Configuration& configuration, HostTime start)
   };
 }
 
+void RecorderTap::request(HostTime now, motion::RequestKind kind, motion::RequestId id) {
+  recorder_.order(now, verb_of(kind), fmt::format("request: {}", id));
+}
+
 void RecorderTap::look(HostTime now, const motion::Group& group,
                        const std::vector<std::unique_ptr<BusLink>>& links) {
   if (now < next_look_) return;
   next_look_ = now + kLookPeriod;
   take_snapshot(now, group, links, snapshot_);
   recorder_.look(snapshot_);
+  note_desired(now, group);
+}
+
+/// Of drives that nobody holds: what they do.
+void RecorderTap::note_desired(HostTime now, const motion::Group& group) {
+  if (!group.query(now, desired_)) {
+    desired_.clear();
+    for (const motion::JointSnapshot& joint : snapshot_.joints) desired_.push_back(joint.desired);
+  }
+  history_.add(now, desired_);
 }
 
 void RecorderTap::follow(HostTime now, motion::GroupState before, const motion::Group& group) {

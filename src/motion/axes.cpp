@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace interpolated_motion::motion {
 
@@ -11,6 +12,10 @@ namespace {
 constexpr GoalTime kSignalAllowance{0.1};
 
 }  // namespace
+
+void signal_all(const Signals& signals, HostTime now) {
+  for (axis::StartSignal* signal : signals) signal->signal(now);
+}
 
 bool all_are(const Axes& axes, axis::AxisState state) {
   return std::all_of(axes.begin(), axes.end(), [state](const axis::Axis* a) { return a->state() == state; });
@@ -31,12 +36,16 @@ bool have_reported_since(const Axes& axes, HostTime when) {
                      [when](const axis::Axis* a) { return a->feedback().time >= when; });
 }
 
-std::optional<Refusal> plan_way_on(const Axes& axes, const std::vector<trajectory::Path>& paths,
-                                   axis::Pace pace) {
+Expected<std::vector<axis::TailPtr>, Refusal> encode_ways_on(const Axes& axes,
+                                                             const std::vector<trajectory::Path>& paths,
+                                                             axis::Pace pace) {
+  std::vector<axis::TailPtr> tails;
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (auto refusal = axes[i]->plan_follow(paths[i], pace)) return refusal;
+    auto tail = axes[i]->encoder_behind(pace)->encode(paths[i]);
+    if (!tail) return tail.error();
+    tails.push_back(std::move(tail.value()));
   }
-  return std::nullopt;
+  return tails;
 }
 
 bool begins_at_signal(const axis::Axis& axis) { return axis.start_lead() == GoalTime{0.0}; }
@@ -50,6 +59,12 @@ GoalTime longest_lead(const Axes& axes) {
 GoalTime wait_after_signal(const Axes& axes) {
   const GoalTime lead = longest_lead(axes);
   return lead > GoalTime{0.0} ? lead + kSignalAllowance : lead;
+}
+
+GoalTime head_start(const Axes& axes) {
+  const bool signal =
+      std::any_of(axes.begin(), axes.end(), [](const axis::Axis* a) { return begins_at_signal(*a); });
+  return signal ? wait_after_signal(axes) : longest_lead(axes);
 }
 
 GoalTime longest_stream_lead(const Axes& axes) {

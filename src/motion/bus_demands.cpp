@@ -47,20 +47,23 @@ std::optional<Refusal> refuse(const Demands& demands, GoalTime start) {
 
 }  // namespace
 
-std::optional<Refusal> refuse_beyond_buses(const Axes& axes, GoalTime start) {
+std::optional<Refusal> refuse_beyond_buses(const Planning& planning, GoalTime start) {
   Demands demands;
-  for (const axis::Axis* axis : axes)
-    demands[axis->bus()].push_back({axis->record_slots(), axis->record_bus_time(), axis->bus_watch()});
+  for (std::size_t i = 0; i < planning.axes.size(); ++i) {
+    const Planning::AxisPart& axis = planning.axes[i];
+    demands[axis.bus].push_back({planning.tails[i]->slots, axis.record_bus_time, axis.watch});
+  }
   return refuse(demands, start);
 }
 
-std::optional<Refusal> refuse_way_on_beyond_buses(const Axes& axes, GoalTime now) {
+std::optional<Refusal> refuse_way_on_beyond_buses(const Planning& planning, GoalTime now) {
   Demands demands;
-  for (const axis::Axis* axis : axes) {
-    BusDemand demand{axis->follow_slots(), axis->record_bus_time(), axis->bus_watch()};
+  for (std::size_t i = 0; i < planning.axes.size(); ++i) {
+    const Planning::AxisPart& axis = planning.axes[i];
+    BusDemand demand{planning.tails[i]->slots, axis.record_bus_time, axis.watch};
     demand.watch.lead = GoalTime{0.0};
     for (axis::RecordSlot& slot : demand.slots) slot.release = std::max(slot.release, now + kSoon);
-    demands[axis->bus()].push_back(std::move(demand));
+    demands[axis.bus].push_back(std::move(demand));
   }
   return refuse(demands, now);
 }

@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "interpolated_motion_driver/motion/faults.h"
+
 namespace interpolated_motion::motion {
 
 using axis::AxisState;
 
 namespace {
-
-bool is_out_of_order(const axis::Axis& axis) {
-  return axis.state() == AxisState::Fault || axis.state() == AxisState::Offline;
-}
-
-/// Its drive may still be on its way to rest.
-bool is_faulted(const axis::Axis& axis) {
-  return axis.state() == AxisState::FaultStopping || is_out_of_order(axis);
-}
 
 /// The axis works towards nothing: it waits for a command.
 bool is_settled(const axis::Axis& axis) {
@@ -42,13 +35,9 @@ Group::Group(GroupParameters parameters, std::vector<axis::Axis*> axes,
       axes_(std::move(axes)),
       signals_(std::move(signals)),
       enable_when_found_(parameters_.enable_on_start),
-      stream_(parameters_.rules, parameters_.stream),
-      desired_(axes_.size()),
-      actual_(axes_.size()) {
-  bring_up(now);
-}
-
-void Group::bring_up(HostTime now) {
+      stream_{SetpointPath(parameters_.rules, parameters_.stream)} {
+  tracking_.desired.resize(axes_.size());
+  tracking_.actual.resize(axes_.size());
   for (axis::Axis* axis : axes_) axis->bring_up(now);
   enter(GroupState::Starting);
 }
@@ -82,7 +71,7 @@ void Group::poll(HostTime now) {
       break;
     case GroupState::Idle:
     case GroupState::Disabled:
-      if (faulted()) enter_fault();
+      if (find_faulted(axes_)) enter_fault();
       break;
     case GroupState::Fault:
       if (power_off_ != PowerOff::No) poll_fault(now);
@@ -96,8 +85,9 @@ HostTime Group::next_deadline() const {
   HostTime next = kNever;
   for (const axis::Axis* axis : axes_) next = std::min(next, axis->next_deadline());
   if (state_ == GroupState::Preparing && active_ && all_are(axes_, AxisState::Loaded))
-    next = std::min(next, active_->start);
-  if (state_ == GroupState::Settling) next = std::min(next, settle_deadline());
+    next = std::min(next, active_->set_out);
+  if (state_ == GroupState::Settling && active_)
+    next = std::min(next, active_->settle_deadline(parameters_.settle_timeout));
   const bool replaced = state_ == GroupState::Settling && pending_;
   if (replaced || (state_ == GroupState::Standing && all_are(axes_, AxisState::Ready))) return HostTime{};
   return next;
@@ -106,26 +96,26 @@ HostTime Group::next_deadline() const {
 void Group::poll_starting(HostTime now) {
   if (!all_settled(axes_)) return;
   if (power_off_ != PowerOff::No) return enter(GroupState::Stopping);
-  if (faulted()) return enter_fault();
+  if (find_faulted(axes_)) return enter_fault();
   enter_rest_state(now);
   if (enable_when_found_ && state_ == GroupState::Disabled) start_enabling(now);
   enable_when_found_ = false;
 }
 
 void Group::poll_enabling(HostTime now) {
-  if (faulted()) return enter_fault();
+  if (find_faulted(axes_)) return enter_fault();
   if (all_are(axes_, AxisState::Ready)) enter_rest_state(now);
 }
 
 void Group::poll_preparing(HostTime now) {
-  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
-  if (all_are(axes_, AxisState::Loaded) && now >= active_->start) start_motion(now);
+  if (const axis::Axis* axis = find_faulted(axes_)) return abort_with_fault_of(*axis, now);
+  if (all_are(axes_, AxisState::Loaded) && now >= active_->set_out) start_motion(now);
 }
 
 void Group::poll_moving(HostTime now) {
-  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (const axis::Axis* axis = find_faulted(axes_)) return abort_with_fault_of(*axis, now);
   if (!active_->begin_is_set) set_common_begin(now);
-  if (auto violation = find_path_violation()) return stop(now, {GoalOutcome::Aborted, *violation});
+  if (auto violation = find_violation(false)) return stop(now, {GoalOutcome::Aborted, *violation});
   const auto played = [this, now](const axis::Axis* a) {
     if (a->finished() && a->state() == AxisState::Ready) return true;
     return active_->end && a->playback(now) >= *active_->end;
@@ -136,13 +126,13 @@ void Group::poll_moving(HostTime now) {
 }
 
 void Group::poll_settling(HostTime now) {
-  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (const axis::Axis* axis = find_faulted(axes_)) return abort_with_fault_of(*axis, now);
   if (pending_) {
     finish_goal({GoalOutcome::Preempted, {GoalError::InvalidGoal, "Replaced by a newer goal."}});
   } else {
     if (!have_reported_since(axes_, active_->ended)) return;
-    const auto violation = find_goal_violation();
-    if (violation && now < settle_deadline()) return;
+    const auto violation = find_violation(true);
+    if (violation && now < active_->settle_deadline(parameters_.settle_timeout)) return;
     finish_goal(violation ? Ending{GoalOutcome::Aborted, *violation}
                           : Ending{GoalOutcome::Succeeded, {{}, active_->remark}});
   }
@@ -152,15 +142,14 @@ void Group::poll_settling(HostTime now) {
 
 // The drives leave their interpolation by themselves, at the end of their records.
 void Group::poll_standing(HostTime now) {
-  if (const axis::Axis* axis = faulted()) return abort_with_fault_of(*axis, now);
+  if (const axis::Axis* axis = find_faulted(axes_)) return abort_with_fault_of(*axis, now);
   if (all_are(axes_, AxisState::Ready)) rest(now);
 }
 
 void Group::rest(HostTime now) {
   enter_rest_state(now);
-  std::optional<Setpoint> setpoint = std::exchange(waiting_, std::nullopt);
-  if (pending_) return start_pending(now);
-  if (!setpoint || state_ != GroupState::Idle) return;
+  std::optional<Setpoint> setpoint = std::exchange(stream_.waiting, std::nullopt);
+  if (pending_ || !setpoint || state_ != GroupState::Idle) return;
   setpoint->time = now;  // as it has waited for the drives, not for its sender
   open_stream(*setpoint, now);
 }
@@ -172,15 +161,14 @@ void Group::poll_stopping(HostTime now) {
   if (ending_) finish_goal(*std::exchange(ending_, std::nullopt));
   if (power_off_ == PowerOff::Wanted) return start_disabling(now);
   power_off_ = PowerOff::No;
-  if (faulted()) {
-    fail_pending(faults());
-    finish_stop_goals(GoalOutcome::Aborted, faults());
+  if (find_faulted(axes_)) {
+    fail_pending(fault_text(axes_, signals_));
+    finish_stop_goals(GoalOutcome::Aborted, fault_text(axes_, signals_));
     return enter_fault();
   }
   enter_rest_state(now);
   finish_stop_goals(GoalOutcome::Succeeded);
   requests_.settle(state_, fault_);  // before a goal that has waited for this rest begins
-  if (pending_) start_pending(now);
 }
 
 void Group::poll_fault(HostTime now) {
@@ -194,7 +182,7 @@ void Group::start_enabling(HostTime now) {
   for (axis::Axis* axis : axes_) {
     if (axis->state() == AxisState::Disabled) axis->enable(now);
   }
-  signal_all(now);
+  signal_all(signals_, now);
   enter(GroupState::Enabling);
 }
 
@@ -206,10 +194,11 @@ void Group::start_disabling(HostTime now) {
     if (axis->state() == AxisState::Ready || (settled && is_out_of_order(*axis))) axis->disable(now);
   }
   if (settled) power_off_ = PowerOff::Told;
-  signal_all(now);
+  signal_all(signals_, now);
 }
 
 void Group::reset(HostTime now) {
+  ++premises_.orders;
   for (axis::Axis* axis : axes_) {
     if (is_faulted(*axis)) axis->reset_fault(now);
   }
@@ -218,6 +207,7 @@ void Group::reset(HostTime now) {
 
 void Group::enter(GroupState state) {
   state_ = state;
+  ++premises_.states;
   if (state != GroupState::Fault) fault_.clear();
 }
 
@@ -227,29 +217,27 @@ void Group::enter_rest_state(HostTime now) {
 }
 
 void Group::enter_fault() {
-  fault_ = faults();
+  fault_ = fault_text(axes_, signals_);
+  fail_pending(fault_);
   enable_when_found_ = false;
   enter(GroupState::Fault);
   in_force_since_ = kNever;
 }
 
-void Group::signal_all(HostTime now) {
-  for (axis::StartSignal* signal : signals_) signal->signal(now);
-}
-
 void Group::stop(HostTime now, Ending ending) {
-  waiting_.reset();
+  stream_.waiting.reset();
   if (active_) ending_ = std::move(ending);
   for (axis::Axis* axis : axes_) {
     if (holds_motion(axis->state())) axis->stop(now);
   }
-  signal_all(now);
+  signal_all(signals_, now);
   enter(GroupState::Stopping);
 }
 
 void Group::abort_with_fault_of(const axis::Axis& axis, HostTime now) {
   const char* others = axes_.size() > 1 ? " The other joints were stopped." : "";
-  stop(now, {GoalOutcome::Aborted, {GoalError::InvalidGoal, bus_faults() + axis.fault_text() + others}});
+  stop(now,
+       {GoalOutcome::Aborted, {GoalError::InvalidGoal, bus_faults(signals_) + axis.fault_text() + others}});
 }
 
 RequestId Group::request(RequestKind kind, HostTime now) {
@@ -284,6 +272,7 @@ RequestId Group::request(RequestKind kind, HostTime now) {
 }
 
 void Group::halt(HostTime now, const std::string& why) {
+  ++premises_.orders;
   if (pending_) fail_pending(why);
   if (in_motion()) stop(now, {GoalOutcome::Aborted, {GoalError::InvalidGoal, "The group was " + why + "."}});
 }
@@ -307,29 +296,5 @@ bool Group::plays_course() const {
 }
 
 bool Group::in_motion() const { return state_ == GroupState::Preparing || plays_course(); }
-
-const axis::Axis* Group::faulted() const {
-  const auto it =
-      std::find_if(axes_.begin(), axes_.end(), [](const axis::Axis* a) { return is_faulted(*a); });
-  return it == axes_.end() ? nullptr : *it;
-}
-
-/// Sentences about buses that carry nothing, each followed by a blank.
-std::string Group::bus_faults() const {
-  std::string text;
-  for (const axis::StartSignal* signal : signals_) {
-    const std::string fault = signal->fault();
-    if (!fault.empty()) text += fault + " ";
-  }
-  return text;
-}
-
-std::string Group::faults() const {
-  std::string text = bus_faults();
-  for (const axis::Axis* axis : axes_) {
-    if (is_faulted(*axis)) text += axis->fault_text() + " ";
-  }
-  return text + "Remove the cause, call ~reset_faults, then ~enable.";
-}
 
 }  // namespace interpolated_motion::motion

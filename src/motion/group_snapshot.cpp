@@ -66,7 +66,7 @@ void Group::snapshot(HostTime now, Snapshot& out) const {
   out.active_goal = active_ ? active_->id : 0;
   out.goal_time = active_ ? axes_.front()->playback(now) - active_->zero : GoalTime{0.0};
   out.goal_duration = active_ ? active_->duration : GoalTime{0.0};
-  out.setpoints = setpoints_;
+  out.setpoints = stream_.counters;
   out.joints.resize(axes_.size());
   axis::AxisStatus status;
   for (std::size_t i = 0; i < axes_.size(); ++i) {

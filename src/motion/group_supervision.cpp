@@ -38,37 +38,25 @@ bool is_held(const axis::Axis& axis) {
 void Group::sample_feedback() {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const axis::AxisFeedback& feedback = axes_[i]->feedback();
-    actual_[i] = without_acceleration(feedback.position, feedback.velocity);
-    desired_[i] = desired(i, feedback.time);
+    tracking_.actual[i] = without_acceleration(feedback.position, feedback.velocity);
+    tracking_.desired[i] = desired(i, feedback.time);
     if (plays_course() && feedback.mean_over > HostDuration{}) {
       const double before = desired(i, feedback.time - feedback.mean_over).position;
-      desired_[i].velocity = (desired_[i].position - before) / seconds(feedback.mean_over);
+      tracking_.desired[i].velocity = (tracking_.desired[i].position - before) / seconds(feedback.mean_over);
     }
   }
 }
 
-std::optional<Refusal> Group::find_path_violation() {
+/// Of the tolerances at the goal's end, or on its path.
+std::optional<Refusal> Group::find_violation(bool at_goal) {
   sample_feedback();
-  const auto violation = trajectory::find_tolerance_violation(active_->tolerances.path, desired_, actual_);
+  const trajectory::Tolerances& tolerances = active_->tolerances;
+  const auto violation = trajectory::find_tolerance_violation(at_goal ? tolerances.goal : tolerances.path,
+                                                              tracking_.desired, tracking_.actual);
   if (!violation) return std::nullopt;
-  const std::size_t joint = violation->joint;
-  return trajectory::path_tolerance_violated(parameters_.rules.joints[joint],
-                                             parameters_.rules.limits[joint].unit, *violation);
-}
-
-std::optional<Refusal> Group::find_goal_violation() {
-  sample_feedback();
-  const auto violation = trajectory::find_tolerance_violation(active_->tolerances.goal, desired_, actual_);
-  if (!violation) return std::nullopt;
-  const std::size_t joint = violation->joint;
-  return trajectory::goal_tolerance_violated(parameters_.rules.joints[joint],
-                                             parameters_.rules.limits[joint].unit, *violation);
-}
-
-HostTime Group::settle_deadline() const {
-  if (!active_) return kNever;
-  const HostDuration goal_time = host_duration(active_->tolerances.goal_time.count());
-  return active_->ended + (goal_time > HostDuration::zero() ? goal_time : parameters_.settle_timeout);
+  const auto text = at_goal ? trajectory::goal_tolerance_violated : trajectory::path_tolerance_violated;
+  return text(parameters_.rules.joints[violation->joint], parameters_.rules.limits[violation->joint].unit,
+              *violation);
 }
 
 trajectory::State Group::desired(std::size_t joint, HostTime when) const {

@@ -1,10 +1,21 @@
 #include "interpolated_motion_driver/node/action_server.h"
 
+#include <string>
+
 #include <ros/console.h>
 
 #include "interpolated_motion_driver/node/message_conversion.h"
 
 namespace interpolated_motion::node {
+namespace {
+
+/// Its client has cancelled a goal that was neither accepted nor rejected.
+template <class Handle>
+bool is_cancelled(const Handle& handle) {
+  return handle.getGoalStatus().status == actionlib_msgs::GoalStatus::RECALLING;
+}
+
+}  // namespace
 
 TrajectoryActionServer::TrajectoryActionServer(const ros::NodeHandle& node, HardwareThread& hardware)
     : hardware_(hardware),
@@ -16,25 +27,40 @@ TrajectoryActionServer::TrajectoryActionServer(const ros::NodeHandle& node, Hard
 void TrajectoryActionServer::start() { server_.start(); }
 
 void TrajectoryActionServer::on_goal(Handle handle) {
-  const auto answer = hardware_.call([goal = to_goal(*handle.getGoal())](auto& hardware, HostTime now) {
-    return hardware.submit(goal, now);
-  });
-  if (!answer || !*answer) {
-    const Refusal refusal =
-        answer ? answer->error() : Refusal{GoalError::InvalidGoal, "The driver is shutting down."};
-    const auto line = rejected_.pass("goal rejected: " + refusal.text, host_now());
-    if (line) ROS_ERROR_STREAM(*line);
-    handle.setRejected(to_result(refusal.code, refusal.text), refusal.text);
-    return;
-  }
-  const motion::GoalAcceptance& acceptance = answer->value();
+  const auto ticket = hardware_.submit(to_goal(*handle.getGoal()));
+  // Its answer cannot have been handled yet: that is done by this same thread.
+  if (ticket) handed_in_.emplace(*ticket, handle);
+  if (!ticket) reject(handle, {GoalError::InvalidGoal, "The driver is shutting down."});
+}
+
+void TrajectoryActionServer::goal_answered(const hardware::GoalAnswer& answer) {
+  const auto found = handed_in_.find(answer.ticket);
+  if (found == handed_in_.end()) return;
+  Handle handle = found->second;
+  handed_in_.erase(found);
+  if (!answer.answer) return reject(handle, answer.answer.error());
+  const motion::GoalAcceptance& acceptance = answer.answer.value();
   for (const std::string& warning : acceptance.warnings) ROS_WARN_STREAM(warning);
-  // Its result cannot have been handled yet: that is done by this same thread.
   goals_.emplace(acceptance.id, handle);
+  const bool cancelled = is_cancelled(handle);
   handle.setAccepted();
+  if (cancelled) on_cancel(handle);  // too late to be withdrawn
+}
+
+void TrajectoryActionServer::reject(Handle& handle, const Refusal& refusal) {
+  if (is_cancelled(handle)) return handle.setCanceled(to_result(refusal.code, refusal.text), refusal.text);
+  if (const auto line = rejected_.pass("goal rejected: " + refusal.text, host_now())) ROS_ERROR_STREAM(*line);
+  handle.setRejected(to_result(refusal.code, refusal.text), refusal.text);
 }
 
 void TrajectoryActionServer::on_cancel(const Handle& handle) {
+  for (const auto& [ticket, known] : handed_in_) {
+    if (!(known == handle)) continue;
+    hardware_.post([wanted = ticket](HardwareThread::Hardware& hardware, HostTime now) {
+      hardware.withdraw(wanted, now);
+    });
+    return;
+  }
   for (const auto& [id, known] : goals_) {
     if (!(known == handle)) continue;
     hardware_.post(

@@ -52,12 +52,13 @@ void summarize_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticSt
 
 }  // namespace
 
-void diagnose_group(const motion::Snapshot& snapshot, DiagnosticStatus& status) {
+void diagnose_group(const motion::Snapshot& snapshot, HostDuration longest_turn, DiagnosticStatus& status) {
   if (snapshot.state == motion::GroupState::Fault) {
     status.summary(kError, snapshot.fault);
   } else {
     status.summary(kOk, motion::to_string(snapshot.state));
   }
+  status.add("longest turn of the bus thread", fmt::format("{:.1f} ms", 1e3 * seconds(longest_turn)));
 }
 
 void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status) {
@@ -107,7 +108,9 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const HardwareThread& hard
                          const hardware::Configuration& configuration, const WireLog* wire_log)
     : hardware_(hardware), updater_(node, node) {
   updater_.setHardwareID("none");
-  updater_.add("group", [this](DiagnosticStatus& status) { diagnose_group(snapshot_, status); });
+  updater_.add("group", [this](DiagnosticStatus& status) {
+    diagnose_group(snapshot_, hardware_.longest_turn(), status);
+  });
   for (const auto& bus : configuration.buses) add_bus(bus);
   for (const auto& joint : configuration.joints) add_drive(joint);
   if (wire_log != nullptr) {

@@ -91,7 +91,13 @@ std::unique_ptr<HardwareThread> DriverNode::start_hardware(const LoadedConfigura
 }
 
 HardwareThread::Listener DriverNode::listener() {
-  return {[this](const motion::GoalResult& result) {
+  return {[this](const hardware::GoalAnswer& answer) {
+            post_to(command_queue_, [this, answer] {
+              action_.goal_answered(answer);
+              command_.goal_answered(answer);
+            });
+          },
+          [this](const motion::GoalResult& result) {
             post_to(command_queue_, [this, result] { action_.goal_ended(result); });
           },
           [this](const HardwareThread::Hardware::LogEntry& entry) {

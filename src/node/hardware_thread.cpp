@@ -19,7 +19,12 @@ constexpr HostDuration kShortestSleep = std::chrono::microseconds(100);
 }  // namespace
 
 HardwareThread::HardwareThread(const Factory& make, const Settings& settings, Listener listener)
-    : settings_(settings), listener_(std::move(listener)), hardware_(make({&io_, [this] { wake(); }})) {
+    : settings_(settings),
+      listener_(std::move(listener)),
+      hardware_(make({&io_, [this] { wake(); }})),
+      planner_(
+          [this](const motion::PlanningPtr& planning, HostDuration taken) { planned(planning, taken); }) {
+  hardware_->set_planner([this](motion::PlanningPtr planning) { planner_.plan(std::move(planning)); });
   thread_ = std::thread([this] { run(); });
 }
 
@@ -66,11 +71,13 @@ void HardwareThread::tick() {
   hardware_->update(last_tick_);
   hand_out_events();
   hand_out_snapshot();
+  turns_.note(last_tick_, host_now());
   schedule();
 }
 
 void HardwareThread::hand_out_events() {
   while (const auto entry = hardware_->take_log()) listener_.log(*entry);
+  while (const auto answer = hardware_->take_goal_answer()) listener_.goal_answered(*answer);
   while (const auto result = hardware_->take_goal_result()) listener_.goal_ended(*result);
   while (auto result = hardware_->take_request_result()) {
     const auto waiting = requests_.find(result->id);
@@ -101,7 +108,11 @@ void HardwareThread::schedule_at(HostTime time) {
 }
 
 void HardwareThread::post(std::function<void(Hardware&, HostTime)> function) {
-  boost::asio::post(io_, [this, function = std::move(function)] { function(*hardware_, host_now()); });
+  boost::asio::post(io_, [this, function = std::move(function)] {
+    const HostTime begin = host_now();
+    function(*hardware_, begin);
+    turns_.note(begin, host_now());
+  });
 }
 
 motion::RequestResult HardwareThread::request(std::function<motion::RequestId(Hardware&, HostTime)> start,
@@ -116,6 +127,21 @@ motion::RequestResult HardwareThread::request(std::function<motion::RequestId(Ha
   if (result) return *result;
   return {0, false,
           ended_ ? "the driver is shutting down" : fmt::format("not done within {:g} s", seconds(patience))};
+}
+
+std::optional<hardware::Ticket> HardwareThread::submit(trajectory::Goal goal) {
+  return call([this, goal = planner_.keep(std::move(goal))](Hardware& hardware, HostTime now) {
+    const hardware::Ticket ticket = hardware.submit_later(goal, now);
+    wake();  // what is refused at once is told at once
+    return ticket;
+  });
+}
+
+void HardwareThread::planned(const motion::PlanningPtr& planning, HostDuration taken) {
+  post([this, planning, taken](Hardware& hardware, HostTime now) {
+    hardware.planned(*planning, taken, now);
+    wake();
+  });
 }
 
 void HardwareThread::snapshot(motion::Snapshot& out) const {

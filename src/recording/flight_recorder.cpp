@@ -111,12 +111,12 @@ std::string FlightRecorder::where() const {
   return fmt::format("group: {}, positions: {}", motion::to_string(state_), list(positions_));
 }
 
-void FlightRecorder::goal(HostTime now, const trajectory::Goal& goal,
+void FlightRecorder::goal(HostTime now, const std::shared_ptr<const trajectory::Goal>& goal,
                           const Expected<motion::GoalAcceptance, Refusal>& answer) {
   Order order;
   order.time = now;
   order.verb = "goal";
-  order.goal = std::make_shared<const trajectory::Goal>(goal);
+  order.goal = goal;
   order.id = answer ? answer.value().id : 0;
   order.arguments = fmt::format("id: {}, {}, answer: {}", order.id, where(),
                                 in_quotes(answer ? "accepted" : "refused: " + answer.error().text));

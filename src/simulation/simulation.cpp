@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -18,6 +19,8 @@ using motion::GroupState;
 namespace {
 
 constexpr HostDuration kLook = std::chrono::milliseconds(5);
+/// While goals are planned: nothing moves for a goal whose acceptance is not known yet.
+constexpr HostDuration kAnswerLook = std::chrono::milliseconds(1);
 /// s: a drive boots within a second, and is asked anew until then.
 constexpr double kBootTime = 2.0;
 constexpr double kRestAtTheEnd = 2.0;  // s
@@ -138,8 +141,8 @@ void Simulation::wait_for_the_end() {
   if (ledger_.is_dead()) return run_for(kRestAtTheEnd + ledger_.arm().commit_horizon + kRestAtTheEnd);
   const HostTime end = now_ + host_duration(kLongest);
   const auto is_open = [this] {
-    return ledger_.has_open_goal() || ledger_.has_open_request(now_) || !setpoints_.empty() ||
-           ledger_.state() == GroupState::Streaming;
+    return !handed_in_.empty() || ledger_.has_open_goal() || ledger_.has_open_request(now_) ||
+           !setpoints_.empty() || ledger_.state() == GroupState::Streaming;
   };
   while (is_open() && now_ < end && !is_over()) run_for(0.05);
   if (is_open() && !is_over())
@@ -154,6 +157,7 @@ void Simulation::advance_to(HostTime time) {
     HostTime next = std::min(time, next_look_);
     if (!setpoints_.empty() && host_is_there_)
       next = std::min(next, std::max(now_, setpoints_.front().arrives));
+    if (!handed_in_.empty()) next = std::min(next, now_ + kAnswerLook);
     step(next);
     if (now_ < next_look_) continue;
     next_look_ = now_ + kLook;
@@ -166,6 +170,7 @@ void Simulation::step(HostTime time) {
     now_ = time;
     if (host_is_there_) {
       driver_->update(now_);
+      take_answers();
     } else {
       driver_->stall(now_);
     }
@@ -216,45 +221,69 @@ void Simulation::carry_out_request(const std::string& verb) {
 void Simulation::submit(const Event& event) {
   std::vector<double> present;
   for (const auto& joint : snapshot_.joints) present.push_back(joint.actual.position);
-  const trajectory::Goal goal = make_goal(event, ledger_.arm(), present, now_);
-  const auto answer = driver_->submit(goal, now_);
-  if (!answer) {
-    ++outcome_.goals_refused;
-    return say("refused: " + answer.error().text);
-  }
-  say(fmt::format("goal {} accepted, {:.3f} s", answer.value().id, answer.value().duration.count()));
-  accept(event, goal, answer.value());
+  HandedIn sent{event, meets_motion()};
+  driver_->set_planning_time(host_duration(event.number("plan")));
+  const auto goal = std::make_shared<const trajectory::Goal>(make_goal(event, ledger_.arm(), present, now_));
+  handed_in_.emplace(driver_->submit_later(goal, now_), std::move(sent));
+  take_answers();
 }
 
-void Simulation::accept(const Event& event, const trajectory::Goal& goal,
+bool Simulation::meets_motion() const {
+  return ledger_.has_open_goal() || !is_at_rest(snapshot_.state) ||
+         snapshot_.state == motion::GroupState::Standing;
+}
+
+void Simulation::take_answers() {
+  while (const auto answered = driver_->take_goal_answer()) {
+    const HandedIn handed_in = std::move(handed_in_.at(answered->ticket));
+    handed_in_.erase(answered->ticket);
+    const auto& answer = answered->answer;
+    if (!answer) {
+      if (!answered->goal->points.empty()) ++outcome_.goals_refused;
+      say("refused: " + answer.error().text);
+    } else if (answered->goal->points.empty()) {
+      accept_stop(answer.value().id);
+    } else {
+      say(fmt::format("goal {} accepted, {:.3f} s", answer.value().id, answer.value().duration.count()));
+      accept(handed_in, *answered->goal, answer.value());
+    }
+  }
+}
+
+void Simulation::accept(const HandedIn& handed_in, const trajectory::Goal& goal,
                         const motion::GoalAcceptance& acceptance) {
   ++outcome_.goals_accepted;
   GoalEntry entry;
-  entry.met_motion = ledger_.has_open_goal() || !is_at_rest(snapshot_.state) ||
-                     snapshot_.state == motion::GroupState::Standing;
+  entry.met_motion = handed_in.met_motion || meets_motion();
   // Points in the past are left out, as is one at the time 0 of a goal that joins a motion.
   const bool leaves_out_start = entry.met_motion || (goal.start && *goal.start < now_);
-  const GoalDefect defect = defect_of(event);
+  const GoalDefect defect = defect_of(handed_in.event);
   if (defect != GoalDefect::None && !(defect == GoalDefect::StartElsewhere && leaves_out_start))
     for (const auto& invariant : invariants_) invariant->wrongly_accepted(why_bad(defect));
   ledger_.interrupt("goal", now_);
   const double wait = goal.start ? std::max(0.0, seconds(*goal.start - now_)) : 0.0;
+  const double planning = handed_in.event.number("plan");
   entry.accepted = now_;
-  entry.due = now_ + host_duration(wait + acceptance.duration.count() + ledger_.arm().settle_time + kGoal);
+  entry.due =
+      now_ + host_duration(wait + acceptance.duration.count() + planning + ledger_.arm().settle_time + kGoal);
   for (std::size_t j = 0; j < goal.joint_names.size(); ++j)
     entry.target.emplace_back(j, goal.points.back().positions[j]);
   ledger_.accept(acceptance.id, std::move(entry));
 }
 
 void Simulation::submit_stop() {
-  const auto answer = driver_->submit(make_stop(ledger_.arm()), now_);
-  if (!answer) return say("refused: " + answer.error().text);
+  const auto stop = std::make_shared<const trajectory::Goal>(make_stop(ledger_.arm()));
+  handed_in_.emplace(driver_->submit_later(stop, now_), HandedIn{});
+  take_answers();
+}
+
+void Simulation::accept_stop(motion::GoalId id) {
   GoalEntry entry;
   entry.accepted = now_;
   entry.is_stop = true;
   entry.due = now_ + host_duration(kGoal);
   ledger_.interrupt("stop", now_);
-  ledger_.accept(answer.value().id, std::move(entry));
+  ledger_.accept(id, std::move(entry));
 }
 
 void Simulation::be_late(double duration) {

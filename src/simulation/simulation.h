@@ -45,6 +45,12 @@ class Simulation {
   std::string recording(const std::string& cause) const;
 
  private:
+  /// A goal that is neither accepted nor refused.
+  struct HandedIn {
+    Event event;
+    bool met_motion = false;  ///< something was under way when it was sent
+  };
+
   void run_script();
   void end_for_want_of_memory();
   void wait_until_ready();
@@ -58,7 +64,11 @@ class Simulation {
   void carry_out_request(const std::string& verb);
   void submit(const Event& event);
   void submit_stop();
-  void accept(const Event& event, const trajectory::Goal& goal, const motion::GoalAcceptance& acceptance);
+  void accept_stop(motion::GoalId id);
+  void take_answers();
+  bool meets_motion() const;
+  void accept(const HandedIn& handed_in, const trajectory::Goal& goal,
+              const motion::GoalAcceptance& acceptance);
   void be_late(double duration);
   void inject(const Event& event);
 
@@ -84,6 +94,7 @@ class Simulation {
   HostTime next_look_{};
   bool host_is_there_ = true;
   std::unique_ptr<hardware::MotionHardware> driver_;
+  std::map<hardware::Ticket, HandedIn> handed_in_;
   std::deque<SentSetpoint> setpoints_;
   motion::Snapshot snapshot_;
   std::vector<double> positions_;

@@ -153,6 +153,12 @@ std::optional<Refusal> validate_goal(const Goal& goal, const std::vector<std::st
                                      bool allow_partial) {
   const auto columns = joint_columns(goal.joint_names, joints, allow_partial);
   if (!columns) return columns.error();
+  if (goal.points.size() > kMostPoints) {
+    return invalid_goal(fmt::format(
+        "The goal has {} points, allowed are at most {}. Send it in pieces, or with points further "
+        "apart: between them the path is smooth.",
+        goal.points.size(), kMostPoints));
+  }
   if (auto v = check_points(goal)) return v;
   if (auto v = check_tolerances(goal.path_tolerance, "path_tolerance", joints)) return v;
   if (auto v = check_tolerances(goal.goal_tolerance, "goal_tolerance", joints)) return v;

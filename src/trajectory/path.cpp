@@ -27,33 +27,43 @@ void check_pieces(const std::vector<Piece>& pieces) {
   }
 }
 
+/// All paths that rest share these.
+const std::shared_ptr<const std::vector<Piece>>& no_pieces() {
+  static const auto none = std::make_shared<const std::vector<Piece>>();
+  return none;
+}
+
 bool holds(const Piece& piece, GoalTime time) { return piece.start <= time && time < piece.end; }
 
 }  // namespace
 
-Path::Path(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
-  check_pieces(pieces_);
-  const Piece& last = pieces_.back();
+Path::Path(double position) : pieces_(no_pieces()), rest_(position) {}
+
+Path::Path(std::vector<Piece> pieces)
+    : pieces_(std::make_shared<const std::vector<Piece>>(std::move(pieces))) {
+  check_pieces(*pieces_);
+  const Piece& last = pieces_->back();
   rest_ = last.polynomial.position(last.duration().count());
 }
 
 State Path::sample(GoalTime time) const {
-  if (pieces_.empty() || time > end_time()) return {rest_, 0.0, 0.0};
-  if (time < start_time()) return {pieces_.front().polynomial.position(0.0), 0.0, 0.0};
-  const Piece& piece = pieces_[piece_index(time)];
+  if (empty() || time > end_time()) return {rest_, 0.0, 0.0};
+  if (time < start_time()) return {pieces().front().polynomial.position(0.0), 0.0, 0.0};
+  const Piece& piece = pieces()[piece_index(time)];
   return piece.polynomial.state((time - piece.start).count());
 }
 
 double Path::final_position() const { return rest_; }
 
 std::size_t Path::piece_index(GoalTime time, std::size_t hint) const {
-  const std::size_t last = pieces_.size() - 1;
+  const std::vector<Piece>& all = pieces();
+  const std::size_t last = all.size() - 1;
   for (std::size_t i = hint; i <= last && i <= hint + 1; ++i) {
-    if (holds(pieces_[i], time)) return i;
+    if (holds(all[i], time)) return i;
   }
   const auto ends_later = [](GoalTime t, const Piece& piece) { return t < piece.end; };
-  const auto found = std::upper_bound(pieces_.begin(), pieces_.end(), time, ends_later);
-  return std::min(static_cast<std::size_t>(found - pieces_.begin()), last);
+  const auto found = std::upper_bound(all.begin(), all.end(), time, ends_later);
+  return std::min(static_cast<std::size_t>(found - all.begin()), last);
 }
 
 }  // namespace interpolated_motion::trajectory

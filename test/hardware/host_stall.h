@@ -98,9 +98,9 @@ class HostStall : public testing::Test {
   }
 
   void load(const trajectory::Path& path) {
-    const auto refusal = axis_->plan(path, axis_->rest_position(), GoalTime{0.0});
-    ASSERT_FALSE(refusal) << refusal->text;
-    axis_->load(now());
+    auto tail = axis_->encoder_at_rest(axis_->rest_position(), GoalTime{0.0})->encode(path);
+    ASSERT_TRUE(tail) << tail.error().text;
+    axis_->load(std::move(tail.value()), now());
     ASSERT_TRUE(comes_to(axis::AxisState::Loaded));
   }
 

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -66,17 +69,30 @@ trajectory::Goal random_goal(trajectory::Random& random, const std::vector<doubl
   return goal;
 }
 
-class Replacement : public ::testing::TestWithParam<KindOfArm> {
+/// And how long a goal is planned, ms; 0: on the spot.
+class Replacement : public ::testing::TestWithParam<std::tuple<KindOfArm, int>> {
  protected:
+  static const KindOfArm& kind() { return std::get<0>(GetParam()); }
+  static HostDuration planning() { return std::chrono::milliseconds(std::get<1>(GetParam())); }
+
+  Expected<motion::GoalAcceptance, Refusal> submit(const trajectory::Goal& goal) {
+    if (planning() == HostDuration{0}) return scenario.submit(goal);
+    scenario.driver().submit_later(std::make_shared<const trajectory::Goal>(goal), scenario.now());
+    std::optional<hardware::GoalAnswer> answer;
+    scenario.run_until([&] { return (answer = scenario.driver().take_goal_answer()).has_value(); }, 1.0);
+    return answer ? answer->answer : Refusal{GoalError::InvalidGoal, "no answer"};
+  }
+
   void SetUp() override {
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
+    scenario.driver().set_planning_time(planning());
     scenario.driver().set_motion_observer([this](std::size_t joint, const emulation::DemandSample& sample) {
       if (counts.empty()) return;
       watches[joint].take(seconds(sample.time.time_since_epoch()), sample.demand * counts[joint]);
     });
   }
 
-  Scenario scenario{GetParam().arm("")};
+  Scenario scenario{kind().arm("")};
   std::vector<double> counts;  ///< rad in one, of each joint
   std::vector<Watch> watches = std::vector<Watch>(6);
 };
@@ -88,7 +104,7 @@ TEST_P(Replacement, IsOneMotion) {
   trajectory::Random random(1);
   int joined = 0;
   double longest_wait = 0.0;
-  auto goal = scenario.submit(random_goal(random, scenario.positions(), 0.6));
+  auto goal = submit(random_goal(random, scenario.positions(), 0.6));
   ASSERT_TRUE(goal) << goal.error().text;
   ASSERT_TRUE(scenario.run_until_state(GroupState::Moving));
   for (const auto& joint : scenario.driver().report().joints) counts.push_back(joint.count);
@@ -97,7 +113,7 @@ TEST_P(Replacement, IsOneMotion) {
     scenario.run_until([&] { return scenario.state() != GroupState::Moving; }, until);
     const bool moving = scenario.state() == GroupState::Moving;
     const double left = (scenario.snapshot().goal_duration - scenario.snapshot().goal_time).count();
-    auto next = scenario.submit(random_goal(random, scenario.positions(), 0.35));
+    auto next = submit(random_goal(random, scenario.positions(), 0.35));
     if (!next) continue;
     if (moving && left > 1.2) {
       EXPECT_EQ(scenario.state(), GroupState::Moving) << i;
@@ -121,12 +137,16 @@ TEST_P(Replacement, IsOneMotion) {
   EXPECT_LE(hardest, 1.05 * kMaxAcceleration);
   for (const auto& joint : scenario.driver().report().joints)
     EXPECT_LE(joint.worst_deviation, 8.0) << joint.joint;
-  std::printf("%s: %d of %d joined, %.2f s until the join at most, %.2f rad/s, %.2f rad/s^2\n",
-              GetParam().name, joined, cases, longest_wait, fastest, hardest);
+  std::printf("%s: %d of %d joined, %.2f s until the join at most, %.2f rad/s, %.2f rad/s^2\n", kind().name,
+              joined, cases, longest_wait, fastest, hardest);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Replacement, ::testing::ValuesIn(kKindsOfArms),
-                         [](const auto& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kinds, Replacement,
+                         ::testing::Combine(::testing::ValuesIn(kKindsOfArms), ::testing::Values(0, 60)),
+                         [](const auto& one) {
+                           return std::string(std::get<0>(one.param).name) +
+                                  (std::get<1>(one.param) == 0 ? "" : "_planned_meanwhile");
+                         });
 
 }  // namespace
 }  // namespace interpolated_motion::test

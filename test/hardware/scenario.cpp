@@ -216,7 +216,7 @@ motion::RequestResult Scenario::result_of_request(motion::RequestId id, double s
 
 std::vector<double> Scenario::positions() {
   std::vector<double> positions;
-  for (const hardware::JointHandle& joint : driver_->joints()) positions.push_back(*joint.position);
+  for (const motion::JointSnapshot& joint : snapshot().joints) positions.push_back(joint.actual.position);
   return positions;
 }
 

@@ -87,9 +87,13 @@ class Sender:
     def cancel(self):
         """Cancels the goal once the server knows it: actionlib's client takes a goal that it cancelled earlier for lost when a
         status message from before the goal arrives."""
+        self.wait_known()
+        self._handle.cancel()
+
+    def wait_known(self):
+        """Waits until the server has the goal."""
         if not self._known.wait(PATIENCE):
             raise AssertionError('the goal was not acknowledged within %g s' % PATIENCE)
-        self._handle.cancel()
 
     def is_active(self):
         return self._handle.get_comm_state() == actionlib.CommState.ACTIVE

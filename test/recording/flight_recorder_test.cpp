@@ -42,6 +42,10 @@ trajectory::Goal goal(double target) {
   return goal;
 }
 
+std::shared_ptr<const trajectory::Goal> shared(trajectory::Goal goal) {
+  return std::make_shared<const trajectory::Goal>(std::move(goal));
+}
+
 Answer accepted(motion::GoalId id) { return motion::GoalAcceptance{id, GoalTime{1.0}, {}}; }
 
 std::string text_of(const FlightRecorder& recorder, double now) {
@@ -70,8 +74,8 @@ TEST(FlightRecorder, OrdersComeBackToTheLastBit) {
   trajectory::Goal sent = goal(0.1);
   sent.start = at(5.123456789);
   sent.path_tolerance.push_back({"joint2", 0.2, -1.0, 0.0});
-  recorder.goal(at(1.0), sent, accepted(7));
-  recorder.goal(at(2.0), goal(std::numeric_limits<double>::quiet_NaN()),
+  recorder.goal(at(1.0), shared(sent), accepted(7));
+  recorder.goal(at(2.0), shared(goal(std::numeric_limits<double>::quiet_NaN())),
                 Refusal{GoalError::InvalidGoal, "no \"number\"\n: 1"});
   recorder.order(at(2.5), "cancel", "goal: 7");
   const RecordingFile file = parse_recording(text_of(recorder, 3.0));
@@ -124,9 +128,9 @@ TEST(FlightRecorder, KeepsTheLastSecondsOnly) {
 // A goal under way, and what came after it, however old; nothing that was over before.
 TEST(FlightRecorder, KeepsOrdersInForce) {
   FlightRecorder recorder({std::chrono::seconds(10)}, subject(), at(0.0));
-  recorder.goal(at(1.0), goal(0.1), accepted(1));
+  recorder.goal(at(1.0), shared(goal(0.1)), accepted(1));
   recorder.ended(at(5.0), motion::GoalResult{1, motion::GoalOutcome::Succeeded, {}, ""});
-  recorder.goal(at(6.0), goal(0.2), accepted(2));
+  recorder.goal(at(6.0), shared(goal(0.2)), accepted(2));
   recorder.order(at(7.0), "inject", "target: can0");
   recorder.order(at(100.0), "halt", "request: 1");
   const RecordingFile file = parse_recording(text_of(recorder, 100.0));
@@ -149,7 +153,7 @@ TEST(FlightRecorder, MemoryIsBoundedWhateverComes) {
     recorder.frame("can0", frame(time, 0x100, true));
     recorder.log(at(time), "info", std::string(static_cast<std::size_t>(i % 3000), 'x'));
     if (i % 3 != 0) continue;
-    recorder.goal(at(time), goal(0.1), accepted(++id));
+    recorder.goal(at(time), shared(goal(0.1)), accepted(++id));
     if (id > 1) recorder.ended(at(time), motion::GoalResult{id, motion::GoalOutcome::Preempted, {}, ""});
     ASSERT_LE(recorder.used(), bytes);
   }

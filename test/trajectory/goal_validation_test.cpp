@@ -99,6 +99,19 @@ TEST(GoalValidation, RefusesNumbersThatAreNone) {
   }
 }
 
+TEST(GoalValidation, BoundsTheNumberOfPoints) {
+  Goal goal = good();
+  const Waypoint point = goal.points.back();
+  while (goal.points.size() < kMostPoints) {
+    goal.points.push_back(point);
+    goal.points.back().time = goal.points[goal.points.size() - 2].time + GoalTime{0.001};
+  }
+  EXPECT_FALSE(validate_goal(goal, kJoints, false));
+  goal.points.push_back(goal.points.back());
+  goal.points.back().time += GoalTime{0.001};
+  expect_refused(goal, GoalError::InvalidGoal, "", "300001 points, allowed are at most 300000");
+}
+
 TEST(GoalValidation, RefusesPointsBeyondAnHour) {
   Goal goal = good();
   goal.points[1].time = GoalTime(3600);

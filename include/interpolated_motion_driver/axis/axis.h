@@ -8,6 +8,7 @@
 
 #include "interpolated_motion_driver/axis/axis_notes.h"
 #include "interpolated_motion_driver/axis/bus_watch.h"
+#include "interpolated_motion_driver/axis/tail.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 #include "interpolated_motion_driver/units/refusal.h"
@@ -22,7 +23,7 @@ enum class AxisState {
   Configuring,  ///< being found, identified, verified and parameterised
   Disabled,     ///< power stage off: enable()
   Enabling,
-  Ready,          ///< enabled, at rest, FIFO empty: plan(), load(), disable()
+  Ready,          ///< enabled, at rest, FIFO empty: load(), disable()
   Loading,        ///< FIFO being emptied, filled and verified
   Loaded,         ///< waits for arm()
   Moving,         ///< the drive plays its FIFO
@@ -85,12 +86,6 @@ struct AxisReport {
       0;  ///< records the drive did not take at once (EPOS: got lost; SilverLode: NAK)
 };
 
-/// When a record of a plan may and must cross the bus, as goal time, and how long it keeps the bus.
-struct RecordSlot {
-  GoalTime release{0.0};   ///< a place in the FIFO is free from then on
-  GoalTime deadline{0.0};  ///< it must be in the FIFO by then
-};
-
 /// What Axis::committed() is when the end of the path can no longer be changed.
 inline constexpr GoalTime kEndCommitted{std::numeric_limits<double>::infinity()};
 
@@ -144,20 +139,17 @@ class Axis {
   /// How long before the path begins the axis must be told when that is to be. Zero: the axis begins at the
   /// start signal of its bus, and where that falls is known only afterwards.
   virtual GoalTime start_lead() const = 0;
-  /// Encodes `path` for the drive without sending anything, from rest at `rest` in joint units. Refused plans
-  /// leave the axis as it was. An axis that begins at the start signal rests for `wait` from then on before
-  /// it sets out; an axis with a lead ignores it. What the drive plays or is being loaded with is not
-  /// touched: so whether a goal will be possible from where a motion ends can be asked before, and load() is
-  /// for a plan made in Ready.
-  virtual std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) = 0;
-  /// The records of the plan, for the budget of the bus.
-  virtual std::vector<RecordSlot> record_slots() const = 0;
+  /// Encodes goals from rest at `rest`, in joint units. An axis that begins at the start signal rests for
+  /// `wait` from then on before it sets out; an axis with a lead ignores it. `rest` need not be where the
+  /// drive rests now: so whether a goal will be possible from where a motion ends can be asked before.
+  virtual TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const = 0;
   /// Seconds of bus one record takes, as share of the bus that records may fill.
   virtual double record_bus_time() const = 0;
   /// What else it asks of the bus in motion, and what its records really take.
   virtual BusWatch bus_watch() const { return {}; }
-  /// Loads the plan into the FIFO and verifies that it got there: Loading, then Loaded.
-  virtual void load(HostTime now) = 0;
+  /// Loads a tail from where it rests into the FIFO and verifies that it got there: Loading, then Loaded.
+  /// `tail`: by its encoder_at_rest() or its standing_tail().
+  virtual void load(TailPtr tail, HostTime now) = 0;
   /// Starts the motion. An axis without a lead puts its start command on the bus, to be obeyed at the next
   /// start signal (EPOS: SYNC), whatever `begin` is. An axis with a lead sees to it that its path begins at
   /// `begin`.
@@ -170,25 +162,26 @@ class Axis {
 
   // A path that changes while it is played.
 
-  /// As plan(), for a stream of setpoints: a path whose goal time 0 is at host time `origin` and which
-  /// plan_follow() makes longer; at first the axis stands, for `rest` from the begin on. load() and arm()
-  /// start it like any plan.
-  virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
+  /// A tail for load() whose goal time 0 is at host time `origin` and which is to be changed while it is
+  /// played: at first the axis stands, for `rest` from the begin on.
+  virtual Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const = 0;
   /// How far ahead of the present the motion is committed, at most, while a stream is followed.
   virtual GoalTime stream_lead() const = 0;
   /// Until when the path can no longer be changed, in its goal time: infinite once its end is committed;
   /// nothing while the motion has not begun.
   virtual std::optional<GoalTime> committed() const = 0;
-  /// Encodes the way on along `path`, which is the former one up to committed() and ends at rest. Refused
-  /// paths leave the axis as it was. Only while committed() is finite.
-  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  /// Commits to what is played up to `until` at least, so that a tail which is made meanwhile still joins.
+  virtual void hold(GoalTime until) = 0;
+  /// Encodes ways on behind committed(), for paths that are the present one up to there. Only while
+  /// committed() is finite.
+  virtual TailEncoderPtr encoder_behind(Pace pace) const = 0;
   /// Tells of a way on behind committed() where the drive would leave the joint's limits with what it makes
   /// of it. None: what the drive plays is within them where the path is.
   virtual trajectory::DemandCheck demand_check() const { return {}; }
-  /// The records of the way planned last by plan_follow(), as record_slots() gives those of a plan.
-  virtual std::vector<RecordSlot> follow_slots() const = 0;
-  /// Takes that way, at the same `now`. At the end of the path the axis is finished.
-  virtual void follow() = 0;
+  /// Whether committed() is still where `tail` begins, one by its encoder_behind().
+  virtual bool can_follow(const Tail& tail) const = 0;
+  /// Takes a way on that it can follow. At the end of the path the axis is finished.
+  virtual void follow(TailPtr tail) = 0;
 
   /// Goal time the drive is playing at host time `when` (before the path's start while not started).
   virtual GoalTime playback(HostTime when) const = 0;

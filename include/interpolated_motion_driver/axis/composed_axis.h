@@ -2,7 +2,7 @@
 
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/player.h"
@@ -33,28 +33,26 @@ class ComposedAxis : public Axis {
 
   double rest_position() const override { return player_->rest_position(); }
   GoalTime start_lead() const override { return player_->start_lead(); }
-  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override {
-    return player_->plan(path, rest, wait);
+  TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const override {
+    return player_->encoder_at_rest(rest, wait);
   }
-  std::vector<RecordSlot> record_slots() const override { return player_->record_slots(); }
   double record_bus_time() const override { return player_->record_bus_time(); }
   BusWatch bus_watch() const override { return player_->bus_watch(); }
-  void load(HostTime now) override { player_->load(now); }
+  void load(TailPtr tail, HostTime now) override { player_->load(std::move(tail), now); }
   void arm(HostTime begin, HostTime now) override { player_->arm(begin, now); }
   HostTime path_begin() const override { return player_->path_begin(); }
   void stop(HostTime now) override { player_->stop(now); }
 
-  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override {
-    return player_->plan_stream(origin, rest);
+  Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const override {
+    return player_->standing_tail(origin, rest);
   }
   GoalTime stream_lead() const override { return player_->stream_lead(); }
   std::optional<GoalTime> committed() const override { return player_->committed(); }
-  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override {
-    return player_->plan_follow(path, pace);
-  }
+  void hold(GoalTime until) override { player_->hold(until); }
+  TailEncoderPtr encoder_behind(Pace pace) const override { return player_->encoder_behind(pace); }
   trajectory::DemandCheck demand_check() const override { return player_->demand_check(); }
-  std::vector<RecordSlot> follow_slots() const override { return player_->follow_slots(); }
-  void follow() override { player_->follow(); }
+  bool can_follow(const Tail& tail) const override { return player_->can_follow(tail); }
+  void follow(TailPtr tail) override { player_->follow(std::move(tail)); }
 
   GoalTime playback(HostTime when) const override { return player_->playback(when); }
   GoalTime goal_time_at(double drive_seconds) const override { return player_->goal_time_at(drive_seconds); }

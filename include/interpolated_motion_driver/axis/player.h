@@ -1,11 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
-#include "interpolated_motion_driver/trajectory/path.h"
+#include "interpolated_motion_driver/axis/tail.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
+#include "interpolated_motion_driver/units/expected.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -38,30 +38,30 @@ class Player {
   // For the group.
 
   /// Called through Axis, which says what each of them does and owes the group. It is the caller who looks at
-  /// the state: load() is for an axis in Ready that has a plan, arm() for one in Loaded.
+  /// the state: load() is for an axis in Ready, arm() for one in Loaded.
   virtual double rest_position() const = 0;
   virtual GoalTime start_lead() const = 0;
-  virtual std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) = 0;
-  virtual std::vector<RecordSlot> record_slots() const = 0;
+  virtual TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const = 0;
   virtual double record_bus_time() const = 0;
   virtual BusWatch bus_watch() const { return {}; }
   /// As Axis: Loading, Loaded; Moving; Stopping, then Ready. What fails on the way is a fault of the power
   /// stage.
-  virtual void load(HostTime now) = 0;
+  virtual void load(TailPtr tail, HostTime now) = 0;
   virtual void arm(HostTime begin, HostTime now) = 0;
   virtual HostTime path_begin() const = 0;
   virtual void stop(HostTime now) = 0;
 
   /// As Axis, for a path that changes while it is played.
-  virtual std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) = 0;
+  virtual Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const = 0;
   virtual GoalTime stream_lead() const = 0;
   virtual std::optional<GoalTime> committed() const = 0;
-  virtual std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) = 0;
+  virtual void hold(GoalTime until) = 0;
+  virtual TailEncoderPtr encoder_behind(Pace pace) const = 0;
   /// Tells of a way on behind committed() where the drive would leave the joint's limits with what it makes
   /// of it. None: what the drive plays is within them where the path is.
   virtual trajectory::DemandCheck demand_check() const { return {}; }
-  virtual std::vector<RecordSlot> follow_slots() const = 0;
-  virtual void follow() = 0;
+  virtual bool can_follow(const Tail& tail) const = 0;
+  virtual void follow(TailPtr tail) = 0;
 
   /// As Axis: what the drive plays, as its clock is known.
   virtual GoalTime playback(HostTime when) const = 0;

@@ -9,6 +9,7 @@
 #include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/hardware/demand_sample.h"
 #include "interpolated_motion_driver/hardware/event_log.h"
+#include "interpolated_motion_driver/hardware/goal_desk.h"
 #include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
@@ -23,9 +24,9 @@ namespace interpolated_motion::hardware {
 /// A named joint as ros_control hands it out: pointers that stay valid as long as the hardware lives.
 struct JointHandle {
   std::string name;
-  const double* position = nullptr;    ///< rad, actual
-  const double* velocity = nullptr;    ///< rad/s, actual
-  const double* demand = nullptr;      ///< rad, the drive's demand
+  const double* position = nullptr;    ///< rad or m, actual, as of the last read()
+  const double* velocity = nullptr;    ///< per s, the same
+  const double* demand = nullptr;      ///< rad or m, the drive's demand, the same
   double* position_command = nullptr;  ///< rad, for write(); NaN, as at first: none
 };
 
@@ -45,14 +46,15 @@ class MotionHardware {
   MotionHardware(const MotionHardware&) = delete;
   MotionHardware& operator=(const MotionHardware&) = delete;
 
-  /// As hardware_interface::RobotHW: takes everything that has happened on the buses until `now`.
+  /// As hardware_interface::RobotHW: takes everything that has happened on the buses until `now`, and sets
+  /// position, velocity and demand of the handles.
   void read(HostTime now, HostDuration period);
   /// As hardware_interface::RobotHW: takes the position commands of the handles as a setpoint of `now`, at
   /// most once in `setpoints/write_period`, then sends what is due. Nothing is commanded while every command
   /// is NaN. The commands are followed as any stream of setpoints; returned is why they are not.
   std::optional<Refusal> write(HostTime now, HostDuration period);
-  /// read() and write() at `now`; with emulated buses, everything since the last call happens at its own
-  /// time.
+  /// For a loop that needs no handles: takes what has happened until `now`, and sends what is due. With
+  /// emulated buses everything since the last call happens at its own time.
   void update(HostTime now);
   /// For tests: a host that is not there. Emulated buses and drives go on until `until` while nobody polls
   /// the driver; without emulated buses nothing happens.
@@ -63,8 +65,26 @@ class MotionHardware {
   const std::vector<JointHandle>& joints() const;
 
   /// Takes a goal, or says why not. Replaces the goal that is under way, which then ends as Preempted. A goal
-  /// without points and with the right joints is a stop. Never called from within update().
+  /// without points and with the right joints is a stop. Never called from within update(). The goal is
+  /// planned before the function returns, which takes the time that it takes.
   Expected<motion::GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
+
+  /// As submit(), for goals that are planned while the drives go on, by the planner: the answer comes later,
+  /// see take_goal_answer(). Of goals that wait for another one's planning the newest counts. Not to be mixed
+  /// with submit().
+  Ticket submit_later(motion::GoalPtr goal, HostTime now);
+  /// A goal that has not been answered yet is refused; without effect for any other.
+  void withdraw(Ticket ticket, HostTime now);
+  /// The next goal that has been accepted or refused, oldest first; every one of submit_later() once.
+  std::optional<GoalAnswer> take_goal_answer();
+  /// Who plans the goals of submit_later(), and those that have waited for rest; to be set before the first
+  /// one. Without a planner they are planned on the spot.
+  void set_planner(Planner planner);
+  /// The planner has run `planning`, which took it so long.
+  void planned(const motion::Planning& planning, HostDuration taken, HostTime now);
+  /// For tests, without a planner: planning takes so long.
+  void set_planning_time(HostDuration time);
+
   /// Stops the goal, if it is still under way; it ends as Preempted.
   void cancel(motion::GoalId goal, HostTime now);
   /// The next goal that has ended, oldest first.
@@ -86,8 +106,8 @@ class MotionHardware {
   void snapshot(motion::Snapshot& out) const;
   /// Figures of the last goal that moved.
   motion::MotionReport report() const;
-  /// The committed trajectory at `time`, per joint. False when `time` is before the start of the trajectory
-  /// in force.
+  /// The committed trajectory at `time`, per joint; before it, what was desired then, as far back as a
+  /// minute. False where neither is known.
   bool query(HostTime time, std::vector<trajectory::State>& out) const;
 
   /// Text for the log that arose since the last call: severity and sentence.

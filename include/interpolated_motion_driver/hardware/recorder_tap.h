@@ -6,6 +6,7 @@
 #include "interpolated_motion_driver/hardware/bus_link.h"
 #include "interpolated_motion_driver/hardware/configuration.h"
 #include "interpolated_motion_driver/hardware/event_log.h"
+#include "interpolated_motion_driver/hardware/state_history.h"
 #include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/motion/group.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
@@ -29,18 +30,27 @@ class RecorderTap {
   /// The group has come into another state: it is told, and looked at at once.
   void follow(HostTime now, motion::GroupState before, const motion::Group& group);
   void log(HostTime now, const LogEntry& entry);
+  /// The group has been asked for something.
+  void request(HostTime now, motion::RequestKind kind, motion::RequestId id);
   /// The driver, which was to be called until `due`, is called at `now`: an absence of the host if that is
   /// much later.
   void note_call(HostTime due, HostTime now);
+
+  /// What these looks have seen.
+  const StateHistory& history() const { return history_; }
 
   recording::FlightRecorder& recorder() { return recorder_; }
   const recording::FlightRecorder& recorder() const { return recorder_; }
 
  private:
+  void note_desired(HostTime now, const motion::Group& group);
+
   recording::FlightRecorder recorder_;
   WireObserver observer_;
   WireObserver wire_;
   motion::Snapshot snapshot_;
+  StateHistory history_;
+  std::vector<trajectory::State> desired_;  ///< scratch
   HostTime next_look_ = HostTime::min();
 };
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "interpolated_motion_driver/motion/planning.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
@@ -23,9 +24,17 @@ struct ActiveGoal {
   std::optional<GoalTime> end;
   std::vector<trajectory::Path> paths;  ///< of its plan, until the motion begins
   HostTime start{};                     ///< earliest host time at which the motion may begin
+  HostTime set_out{};                   ///< when the drives are told, to begin then
   bool begin_is_set = false;            ///< every axis has been told when its path begins
   std::string remark;                   ///< goes with its success: what was not done to the letter
   HostTime ended = kNever;              ///< when the last drive had played its records
+
+  /// Until then the joints must be within their goal tolerances; `settle_timeout`: for a goal that does not
+  /// say.
+  HostTime settle_deadline(HostDuration settle_timeout) const {
+    const HostDuration goal_time = host_duration(tolerances.goal_time.count());
+    return ended + (goal_time > HostDuration::zero() ? goal_time : settle_timeout);
+  }
 };
 
 /// The goal that has moved last, for the motion report.
@@ -38,8 +47,9 @@ struct LastMotion {
 /// else; it is planned from where the group stops.
 struct PendingGoal {
   GoalId id = 0;                ///< as in its GoalAcceptance
-  trajectory::Goal goal;        ///< where the rest was not known, not known yet to be possible from there
+  GoalPtr goal;                 ///< where the rest was not known, not known yet to be possible from there
   bool sent_in_motion = false;  ///< the drives were braking by themselves
+  PlanningPtr planning;         ///< from the rest, once the group is there
 };
 
 /// How the active goal ends once the group is at rest.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "interpolated_motion_driver/motion/active_goal.h"
 #include "interpolated_motion_driver/motion/axes.h"
 #include "interpolated_motion_driver/motion/course.h"
+#include "interpolated_motion_driver/motion/planning.h"
 #include "interpolated_motion_driver/motion/requests.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/setpoint.h"
@@ -59,7 +61,25 @@ class Group {
   const std::string& fault() const { return fault_; }
 
   /// Takes a goal, or says why not; then what is under way goes on. One that is under way ends as Preempted.
+  /// Planned on the spot: begin(), Planning::run() and end() in one.
   Expected<GoalAcceptance, Refusal> submit(const trajectory::Goal& goal, HostTime now);
+  /// Begins to take a goal, or says why not. Planning runs wherever it may, one at a time. `allowance`: how
+  /// long it may take; where the goal joins, the drives commit to so much more of their present motion.
+  Expected<PlanningPtr, Refusal> begin(GoalPtr goal, GoalTime allowance, HostTime now);
+  /// The goal is taken as it has been planned, or refused. Nothing: what the drives do has changed meanwhile,
+  /// or planning took longer than allowed; then renew().
+  std::optional<Expected<GoalAcceptance, Refusal>> end(Planning& planning, HostTime now);
+  /// Begins once more, for what the drives do now.
+  Expected<PlanningPtr, Refusal> renew(const Planning& stale, GoalTime allowance, HostTime now);
+  /// Planning that was begun is of no use any more, and goes without end().
+  void drop_planning() { holding_ = false; }
+  /// What planning that is begun now stands on. `orders` counts what stops the group, and with it whatever
+  /// has been sent before.
+  Planning::Premises premises() const;
+  /// The planning of a goal that has waited for rest, once it is due, to be given to end_waiting(); null
+  /// without one.
+  PlanningPtr take_planning(HostTime now);
+  void end_waiting(Planning& planning, HostTime now);
   /// Stops the goal if it is still under way; it ends as Preempted. Nothing happens for any other id.
   void cancel(GoalId goal, HostTime now);
   /// The next goal that has ended, oldest first.
@@ -93,7 +113,6 @@ class Group {
   void poll_stopping(HostTime now);
   void poll_fault(HostTime now);
 
-  void bring_up(HostTime now);
   void start_enabling(HostTime now);
   void start_disabling(HostTime now);
   void disable(const std::string& why, HostTime now);
@@ -105,29 +124,25 @@ class Group {
   void enter_rest_state(HostTime now);
   void rest(HostTime now);
   void enter_fault();
-  void signal_all(HostTime now);
 
   std::optional<Refusal> refuse_now() const;
-  Expected<GoalAcceptance, Refusal> replace_running(const trajectory::Goal& goal, HostTime now);
-  Expected<GoalAcceptance, Refusal> join(const trajectory::Goal& goal, GoalTime committed, HostTime now);
-  std::vector<trajectory::Path> course_with(const trajectory::GoalPlan& plan, GoalTime join, GoalTime end,
-                                            GoalTime kept) const;
-  void follow(std::vector<trajectory::Path> paths);
+  PlanningPtr begin_now(GoalPtr goal, HostTime now) const;
+  PlanningPtr begin_waiting(GoalPtr goal, HostTime now) const;
+  bool still_fits(const Planning& planning) const;
+  bool ends_by_itself() const;
+  GoalAcceptance wait_for_rest(const Planning& planning, HostTime now);
+  GoalAcceptance join(Planning& planning, HostTime now);
+  void hold(GoalTime allowance);
+  void follow(std::vector<trajectory::Path> paths, std::vector<axis::TailPtr> tails);
   std::optional<GoalTime> changeable_from() const;
-  std::optional<Refusal> refuse_from_rest(const trajectory::Goal& goal, HostTime now);
   GoalAcceptance accept_stop(HostTime now);
-  Expected<trajectory::GoalPlan, Refusal> plan(const trajectory::Goal& goal,
-                                               const trajectory::GoalRules& rules,
-                                               const std::vector<trajectory::State>& rest, HostTime now);
-  void start_loading(GoalId id, const trajectory::Goal& goal, trajectory::GoalPlan plan, HostTime now);
-  void start_pending(HostTime now);
+  void start_loading(GoalId id, Planning& planning, HostTime now);
   void start_motion(HostTime now);
   void set_common_begin(HostTime now);
   std::optional<Refusal> take_setpoint(const Setpoint& setpoint, HostTime now);
   std::optional<Refusal> open_stream(const Setpoint& setpoint, HostTime now);
   std::optional<Refusal> go_on_with_stream(const Setpoint& setpoint, HostTime now);
   std::optional<Refusal> follow_stream(const Setpoint& setpoint, HostTime now);
-  void wait_with(const Setpoint& setpoint);
   void begin_stream(HostTime now);
   void join_stream(HostTime now);
   bool plays_course() const;
@@ -136,15 +151,24 @@ class Group {
   void fail_pending(const std::string& why, GoalOutcome outcome = GoalOutcome::Aborted);
 
   void sample_feedback();
-  std::optional<Refusal> find_path_violation();
-  std::optional<Refusal> find_goal_violation();
-  HostTime settle_deadline() const;
+  std::optional<Refusal> find_violation(bool at_goal);
   trajectory::State desired(std::size_t joint, HostTime when) const;
 
   bool in_motion() const;
-  const axis::Axis* faulted() const;
-  std::string bus_faults() const;
-  std::string faults() const;
+
+  /// How far a stream has come: loading into the drives, on their way to its begin, following.
+  enum class StreamStage { Loading, Beginning, Following };
+  struct Stream {
+    SetpointPath path;
+    StreamStage stage = StreamStage::Following;
+    std::optional<Setpoint> waiting{};  ///< the newest one, until the drives have begun
+    StreamCounters counters{};
+  };
+  /// Scratch, at each axis' latest feedback.
+  struct Tracking {
+    std::vector<trajectory::State> desired;
+    std::vector<trajectory::State> actual;
+  };
 
   GroupParameters parameters_;
   Axes axes_;
@@ -157,24 +181,20 @@ class Group {
   std::string fault_;
   HostTime in_force_since_ = kNever;  ///< start of the trajectory (or rest) that query() answers for
 
+  Planning::Premises premises_;  ///< orders and states so far
+  bool holding_ = false;         ///< while planning, for a goal that is to join
   GoalId next_goal_ = 1;
   Course course_;
   std::optional<ActiveGoal> active_;
   std::optional<LastMotion> last_;
   std::optional<PendingGoal> pending_;
   std::optional<Ending> ending_;
-  /// How far a stream has come: loading into the drives, on their way to its begin, following.
-  enum class StreamStage { Loading, Beginning, Following };
-  StreamStage stream_stage_ = StreamStage::Following;
-  SetpointPath stream_;
-  std::optional<Setpoint> waiting_;  ///< the newest one, until the drives have begun
-  StreamCounters setpoints_;
+  Stream stream_;
   std::vector<GoalId> stop_goals_;
   std::deque<GoalResult> results_;
   Requests requests_;
 
-  std::vector<trajectory::State> desired_;  ///< scratch, at each axis' latest feedback
-  std::vector<trajectory::State> actual_;
+  Tracking tracking_;
 };
 
 }  // namespace interpolated_motion::motion

@@ -25,6 +25,9 @@ class TrajectoryActionServer {
   /// Announces the server: from now on goals are taken.
   void start();
 
+  /// Accepts or rejects the client's goal. Answers to trajectories of the command topic are ignored.
+  void goal_answered(const hardware::GoalAnswer& answer);
+
   /// Ends the client's goal as the motion has ended. Results of trajectories that came by the command topic
   /// are ignored.
   void goal_ended(const motion::GoalResult& result);
@@ -37,11 +40,13 @@ class TrajectoryActionServer {
   using Handle = Server::GoalHandle;
 
   void on_goal(Handle handle);
+  void reject(Handle& handle, const Refusal& refusal);
   void on_cancel(const Handle& handle);
 
   HardwareThread& hardware_;
   ros::NodeHandle node_;
-  std::map<motion::GoalId, Handle> goals_;  ///< accepted and not yet ended
+  std::map<hardware::Ticket, Handle> handed_in_;  ///< neither accepted nor rejected
+  std::map<motion::GoalId, Handle> goals_;        ///< accepted and not yet ended
   LogThrottle rejected_;
   LogThrottle aborted_;
   motion::Snapshot snapshot_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,15 @@ class CommandTopic {
   /// order. `hardware` must live longer.
   CommandTopic(ros::NodeHandle node, HardwareThread& hardware, std::vector<std::string> joints);
 
+  /// Logs what has become of a trajectory. Answers to goals of the action are ignored.
+  void goal_answered(const hardware::GoalAnswer& answer);
+
  private:
   void on_command(const trajectory_msgs::JointTrajectory& message);
 
   HardwareThread& hardware_;
   const std::vector<std::string> joints_;
+  std::set<hardware::Ticket> handed_in_;
   LogThrottle refused_;
   ros::Subscriber subscriber_;
 };

@@ -15,7 +15,8 @@ namespace interpolated_motion::node {
 using DiagnosticStatus = diagnostic_updater::DiagnosticStatusWrapper;
 
 /// The group of drives: OK while it can move or is switched off, ERROR with the reason in a fault.
-void diagnose_group(const motion::Snapshot& snapshot, DiagnosticStatus& status);
+/// `longest_turn`: of the thread that owns the buses.
+void diagnose_group(const motion::Snapshot& snapshot, HostDuration longest_turn, DiagnosticStatus& status);
 /// One drive: ERROR when it is silent or in fault, WARN when its buffer has run dry or it refused records.
 void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status);
 /// One bus: ERROR with what to do when it cannot be used, WARN when frames were lost on this host or when it

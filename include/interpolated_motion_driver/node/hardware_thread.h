@@ -19,20 +19,24 @@
 
 #include "interpolated_motion_driver/hardware/motion_hardware.h"
 #include "interpolated_motion_driver/node/clock.h"
+#include "interpolated_motion_driver/node/planner_thread.h"
+#include "interpolated_motion_driver/node/turn_time.h"
 
 namespace interpolated_motion::node {
 
 /// The one thread that owns the MotionHardware: it calls update() whenever that is due and runs what others
-/// post to it. Others see copies of snapshots. The thread itself waits for nobody.
+/// post to it. Others see copies of snapshots. The thread itself waits for nobody; goals are planned on
+/// another one.
 class HardwareThread {
  public:
   using Hardware = hardware::MotionHardware;
 
   /// Who is told what, on the thread itself: the functions must hand the matter on without waiting.
   struct Listener {
-    std::function<void(const motion::GoalResult&)> goal_ended;  ///< once for each goal that was accepted
-    std::function<void(const Hardware::LogEntry&)> log;         ///< in the order in which they arose
-    std::function<void(const std::string& error)> failed;       ///< an exception has ended the thread
+    std::function<void(const hardware::GoalAnswer&)> goal_answered;  ///< once for each goal handed in
+    std::function<void(const motion::GoalResult&)> goal_ended;       ///< once for each goal that was accepted
+    std::function<void(const Hardware::LogEntry&)> log;              ///< in the order in which they arose
+    std::function<void(const std::string& error)> failed;            ///< an exception has ended the thread
   };
 
   struct Settings {
@@ -63,8 +67,16 @@ class HardwareThread {
   motion::RequestResult request(std::function<motion::RequestId(Hardware&, HostTime)> start,
                                 HostDuration patience);
 
+  /// Hands in a goal, which is planned on a thread of its own; the listener is told the answer. Empty when
+  /// the thread has ended.
+  std::optional<hardware::Ticket> submit(trajectory::Goal goal);
+
   /// Copies the latest snapshot. `out` is reused, so that nothing is allocated once it has grown.
   void snapshot(motion::Snapshot& out) const;
+
+  /// The longest that the thread was busy at a stretch, in the last minute or two: so long a halt may have to
+  /// wait.
+  HostDuration longest_turn() const { return turns_.longest(); }
 
   /// Brings the group to rest, switches the power stages off, and ends the thread. Waits no longer than about
   /// `patience`.
@@ -75,6 +87,7 @@ class HardwareThread {
 
   template <class Value>
   std::optional<Value> wait(std::future<Value> future, HostTime until) const;
+  void planned(const motion::PlanningPtr& planning, HostDuration taken);
   void run();
   void apply_priority();
   void wake();
@@ -95,11 +108,13 @@ class HardwareThread {
   std::map<motion::RequestId, PromisedResult> requests_;
 
   motion::Snapshot back_;  ///< the thread's own, exchanged with front_
+  TurnTime turns_;
   mutable std::mutex front_mutex_;
   motion::Snapshot front_;
 
   std::atomic<bool> ended_{false};
   std::thread thread_;
+  PlannerThread planner_;
 };
 
 template <class Function>

@@ -40,7 +40,7 @@ class FlightRecorder {
   /// A line of a serial bus without its CR, as far as kLongestLine.
   void line(const std::string& bus, std::string_view text, HostTime time, bool from_host);
 
-  void goal(HostTime now, const trajectory::Goal& goal,
+  void goal(HostTime now, const std::shared_ptr<const trajectory::Goal>& goal,
             const Expected<motion::GoalAcceptance, Refusal>& answer);
   void setpoint(HostTime now, const motion::Setpoint& setpoint, const std::optional<Refusal>& refusal);
   /// Any other order; `arguments` in YAML, without braces.

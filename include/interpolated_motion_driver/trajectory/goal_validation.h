@@ -24,6 +24,10 @@ inline constexpr double kLargestTolerance = 1e6;
 /// duration: an hour takes 0.4 s (EPOS2), 0.8 s (cyclic) or 2 s (SilverLode) a joint.
 inline constexpr GoalTime kLatestTime{3600.0};
 
+/// Most points of a goal: five minutes at a point a millisecond. A point takes some 100 bytes a joint until
+/// the goal has been planned.
+inline constexpr std::size_t kMostPoints = 300000;
+
 /// Stands for "the goal does not name this joint".
 inline constexpr std::size_t kNotNamed = static_cast<std::size_t>(-1);
 
@@ -40,6 +44,7 @@ bool is_stop_request(const Goal& goal);
 /// Checks a goal's form, in time linear in the points; nothing if it is well formed (a stop request is).
 /// Refused are:
 /// - joint names as in `joint_columns`;
+/// - InvalidGoal: more than `kMostPoints`;
 /// - InvalidGoal: positions missing, or positions, velocities, accelerations or efforts whose number is
 ///   neither 0 nor that of the joint names; numbers that are not finite or beyond `kLargestValue`; times that
 ///   are negative or beyond `kLatestTime`; times not strictly increasing; tolerances that are not finite;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -147,21 +148,19 @@ bool SetpointPlayer::send(std::int32_t target) {
 
 // A goal's way.
 
-std::optional<Refusal> SetpointPlayer::plan(const trajectory::Path& path, double, GoalTime) {
-  const auto certificate = encoding::certify_setpoints(path, setpoint_encoding(drive_.parameters()));
-  if (!certificate) return certificate.error();
-  planned_ = path;
-  planned_origin_.reset();
-  return std::nullopt;
+TailEncoderPtr SetpointPlayer::encoder_at_rest(double, GoalTime) const {
+  return setpoint_goal_encoder(setpoint_encoding(drive_.parameters()));
 }
 
 GoalTime SetpointPlayer::start_lead() const {
   return GoalTime{(kLatency + 1) * seconds(drive_.parameters().sync_period)} + kHostMargin;
 }
 
-void SetpointPlayer::load(HostTime now) {
-  path_ = planned_;
-  stream_origin_ = planned_origin_;
+void SetpointPlayer::load(TailPtr tail, HostTime now) {
+  SetpointTail& plan = own<SetpointTail>(*tail);
+  path_ = std::move(plan.path);
+  stream_origin_ = plan.origin;
+  held_ = HostTime::min();
   begin_ = kNever;
   finished_ = false;
   sent_at_load_ = sent_;
@@ -232,21 +231,28 @@ void SetpointPlayer::come_to_rest(HostTime now) {
 
 // A path that changes.
 
-std::optional<Refusal> SetpointPlayer::plan_stream(HostTime origin, GoalTime rest) {
-  planned_ = trajectory::with_rest(trajectory::Path(rest_position()), rest);
-  planned_origin_ = origin;
-  return std::nullopt;
+Expected<TailPtr, Refusal> SetpointPlayer::standing_tail(HostTime origin, GoalTime rest) const {
+  auto tail = std::make_unique<SetpointTail>();
+  tail->path = trajectory::with_rest(trajectory::Path(rest_position()), rest);
+  tail->origin = origin;
+  return TailPtr(std::move(tail));
 }
 
 GoalTime SetpointPlayer::stream_lead() const {
   return GoalTime{(kLatency + 1) * seconds(drive_.parameters().sync_period)};
 }
 
+/// At the instant of a target position, that of the newest one or a later one.
 std::optional<GoalTime> SetpointPlayer::committed() const {
   if (finished_) return kEndCommitted;
   if (phase_ != Phase::Moving) return std::nullopt;
-  return GoalTime{seconds(drive_.setpoints().newest() - origin_)};
+  const HostDuration period = drive_.parameters().sync_period;
+  HostTime until = drive_.setpoints().newest();
+  if (held_ > until) until += (held_ - until + period - HostDuration{1}) / period * period;
+  return GoalTime{seconds(until - origin_)};
 }
+
+void SetpointPlayer::hold(GoalTime until) { held_ = origin_ + host_duration(until.count()); }
 
 trajectory::DemandCheck SetpointPlayer::demand_check() const {
   return [this, encoding = setpoint_encoding(drive_.parameters())](
@@ -263,22 +269,19 @@ trajectory::DemandCheck SetpointPlayer::demand_check() const {
   };
 }
 
-/// What the drive makes of a target position depends on a few before it: those have been held against the
-/// former way.
-std::optional<Refusal> SetpointPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
-  const auto encoding = setpoint_encoding(drive_.parameters());
-  if (pace == Pace::Goal) {
-    const GoalTime known = interpolation::kCipHistory * encoding.period;
-    const GoalTime first = std::max(*committed() - known, path.start_time());
-    const auto certificate = encoding::certify_setpoints_from(first, path, encoding);
-    if (!certificate) return certificate.error();
-  }
-  planned_ = path;
-  return std::nullopt;
+TailEncoderPtr SetpointPlayer::encoder_behind(Pace pace) const {
+  if (pace == Pace::Stream) return setpoint_stream_encoder(*committed());
+  return setpoint_way_on_encoder(setpoint_encoding(drive_.parameters()), *committed());
 }
 
-void SetpointPlayer::follow() {
-  path_ = planned_;
+bool SetpointPlayer::can_follow(const Tail& tail) const {
+  const auto until = committed();
+  const GoalTime late{0.5 * seconds(drive_.parameters().sync_period)};
+  return until && *until < own<const SetpointTail>(tail).from + late;
+}
+
+void SetpointPlayer::follow(TailPtr tail) {
+  path_ = std::move(own<SetpointTail>(*tail).path);
   begin_ = origin_ + host_duration(path_.start_time().count());
   drive_.setpoints().follow(path_, begin_);
 }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "interpolated_motion_driver/axis/epos/fifo_watch.h"
 #include "interpolated_motion_driver/encoding/record_range.h"
+#include "interpolated_motion_driver/trajectory/remainder.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 
 namespace interpolated_motion::axis {
@@ -62,42 +65,92 @@ FeedLimits feed_limits(const EposDevice& drive, Pace pace) {
   return {drive.facts().capacity, horizon(drive, wanted)};
 }
 
+class GoalEncoder : public TailEncoder {
+ public:
+  GoalEncoder(const EposDevice& drive, GoalTime wait, std::int32_t rest_counts)
+      : encoding_(goal_encoding(drive)),
+        limits_(feed_limits(drive, Pace::Goal)),
+        wait_(wait),
+        rest_counts_(rest_counts) {}
+
+  Expected<TailPtr, Refusal> encode(const trajectory::Path& path) const override {
+    auto stream = encoding::encode_pvt(path, encoding_, rest_counts_);
+    if (!stream) return stream.error();
+    auto plan = std::make_unique<PvtPlan>();
+    plan->wait = encoding::rest_before(DriveMilliseconds{std::llround(wait_.count() * 1e3)}, stream.value());
+    plan->feed.load(stream.value(), limits_);
+    plan->start = path.start_time();
+    plan->slots = plan->feed.slots(plan->start - plan->wait);
+    return TailPtr(std::move(plan));
+  }
+
+ private:
+  encoding::PvtEncoding encoding_;
+  FeedLimits limits_;
+  GoalTime wait_;
+  std::int32_t rest_counts_;
+};
+
+class WayOnEncoder : public TailEncoder {
+ public:
+  WayOnEncoder(const EposDevice& drive, Pace pace, PvtJoin join)
+      : encoding_(pace == Pace::Goal ? goal_encoding(drive) : stream_encoding(drive)),
+        limits_(feed_limits(drive, pace)),
+        widest_(drive.parameters().stream_deviation_bound),
+        join_(std::move(join)) {}
+
+  Expected<TailPtr, Refusal> encode(const trajectory::Path& path) const override {
+    const trajectory::Path rest = trajectory::remainder(path, join_.reached, join_.rate);
+    const encoding::PvtKnot from{0, join_.knot.position, join_.knot.velocity};
+    encoding::PvtEncoding encoding = encoding_;
+    auto stream = encoding::encode_pvt(rest, encoding, from);
+    while (!stream && 2.0 * encoding.bound_counts <= widest_) {
+      encoding.bound_counts *= 2.0;
+      stream = encoding::encode_pvt(rest, encoding, from);
+    }
+    if (!stream) return stream.error();
+    auto way_on = std::make_unique<PvtWayOn>();
+    way_on->from = join_.knot;
+    way_on->stream = std::move(stream.value());
+    way_on->limits = limits_;
+    way_on->rate = join_.rate;
+    way_on->slots = slots_behind(way_on->stream);
+    return TailPtr(std::move(way_on));
+  }
+
+ private:
+  std::vector<RecordSlot> slots_behind(const encoding::PvtStream& stream) const {
+    RecordFeed feed = join_.before;
+    feed.replace_uncommitted(stream, limits_);
+    return feed.slots(join_.reached - GoalTime{1e-3 * static_cast<double>(join_.knot.sample)});
+  }
+
+  encoding::PvtEncoding encoding_;
+  FeedLimits limits_;
+  double widest_;
+  PvtJoin join_;
+};
+
 }  // namespace
 
-Expected<PvtPlan, Refusal> plan_pvt_goal(const EposDevice& drive, const trajectory::Path& path, GoalTime wait,
-                                         std::int32_t rest_counts) {
-  auto stream = encoding::encode_pvt(path, goal_encoding(drive), rest_counts);
-  if (!stream) return stream.error();
-  PvtPlan plan;
-  plan.wait = encoding::rest_before(DriveMilliseconds{std::llround(wait.count() * 1e3)}, stream.value());
-  plan.feed.load(stream.value(), feed_limits(drive, Pace::Goal));
-  plan.start = path.start_time();
-  return plan;
+TailEncoderPtr pvt_goal_encoder(const EposDevice& drive, GoalTime wait, std::int32_t rest_counts) {
+  return std::make_unique<GoalEncoder>(drive, wait, rest_counts);
 }
 
-Expected<PvtPlan, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime origin, GoalTime rest,
+Expected<TailPtr, Refusal> plan_pvt_standing(const EposDevice& drive, HostTime origin, GoalTime rest,
                                              std::int32_t rest_counts) {
   const double position = drive.parameters().transmission.joint_position(rest_counts);
   const trajectory::Path standing = trajectory::with_rest(trajectory::Path(position), rest);
   const auto stream = encoding::encode_pvt(standing, stream_encoding(drive), rest_counts);
   if (!stream) return stream.error();
-  PvtPlan plan;
-  plan.feed.load(stream.value(), feed_limits(drive, Pace::Stream));
-  plan.origin = origin;
-  return plan;
+  auto plan = std::make_unique<PvtPlan>();
+  plan->feed.load(stream.value(), feed_limits(drive, Pace::Stream));
+  plan->origin = origin;
+  return TailPtr(std::move(plan));
 }
 
-Expected<PvtWayOn, Refusal> plan_pvt_way_on(const EposDevice& drive, const trajectory::Path& rest,
-                                            const encoding::PvtKnot& knot, Pace pace) {
-  const encoding::PvtKnot from{0, knot.position, knot.velocity};
-  encoding::PvtEncoding encoding = pace == Pace::Goal ? goal_encoding(drive) : stream_encoding(drive);
-  auto stream = encoding::encode_pvt(rest, encoding, from);
-  while (!stream && 2.0 * encoding.bound_counts <= drive.parameters().stream_deviation_bound) {
-    encoding.bound_counts *= 2.0;
-    stream = encoding::encode_pvt(rest, encoding, from);
-  }
-  if (!stream) return stream.error();
-  return PvtWayOn{std::move(stream.value()), feed_limits(drive, pace), 1.0};
+TailEncoderPtr pvt_way_on_encoder(const EposDevice& drive, Pace pace, PvtJoin join) {
+  return std::make_unique<WayOnEncoder>(drive, pace, std::move(join));
 }
 
 GoalTime pvt_stream_lead(const EposDevice& drive) {

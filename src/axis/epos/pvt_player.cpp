@@ -8,7 +8,6 @@
 
 #include "interpolated_motion_driver/axis/epos/host_watch.h"
 #include "interpolated_motion_driver/protocol/cia402/controlword.h"
-#include "interpolated_motion_driver/trajectory/remainder.h"
 
 namespace interpolated_motion::axis {
 
@@ -116,18 +115,16 @@ HostDuration PvtPlayer::longest_motion(HostTime now) const {
 
 // Plan and load.
 
-std::optional<Refusal> PvtPlayer::plan(const trajectory::Path& path, double rest, GoalTime wait) {
-  auto plan = plan_pvt_goal(drive_, path, wait, drive_.parameters().transmission.nearest_counts(rest));
-  if (!plan) return plan.error();
-  planned_ = std::move(plan.value());
-  return std::nullopt;
+TailEncoderPtr PvtPlayer::encoder_at_rest(double rest, GoalTime wait) const {
+  return pvt_goal_encoder(drive_, wait, drive_.parameters().transmission.nearest_counts(rest));
 }
 
-void PvtPlayer::load(HostTime now) {
-  feed_ = planned_.feed;
-  wait_ = planned_.wait;
-  stream_origin_ = planned_.origin;
-  timeline_.begin(planned_.start - planned_.wait);
+void PvtPlayer::load(TailPtr tail, HostTime now) {
+  PvtPlan& plan = own<PvtPlan>(*tail);
+  feed_ = std::move(plan.feed);
+  wait_ = plan.wait;
+  stream_origin_ = plan.origin;
+  timeline_.begin(plan.start - plan.wait);
   finished_ = false;
   clock_.stop();
   underruns_at_load_ = drive_.underruns();
@@ -231,45 +228,42 @@ void PvtPlayer::poll_ending(HostTime now) {
   enter(Phase::Ready, now);
 }
 
-// A path that changes: what has not been sent yet is encoded anew.
+// A path that changes: what the drive is not committed to is encoded anew.
 
-std::optional<Refusal> PvtPlayer::plan_stream(HostTime origin, GoalTime rest) {
-  auto plan = plan_pvt_standing(drive_, origin, rest, rest_counts_);
-  if (!plan) return plan.error();
-  planned_ = std::move(plan.value());
-  return std::nullopt;
+Expected<TailPtr, Refusal> PvtPlayer::standing_tail(HostTime origin, GoalTime rest) const {
+  return plan_pvt_standing(drive_, origin, rest, rest_counts_);
 }
 
-double PvtPlayer::sent_until() const { return 1e-3 * static_cast<double>(feed_.sent_knot().sample); }
+double PvtPlayer::kept_until() const { return 1e-3 * static_cast<double>(feed_.committed_knot().sample); }
 
 std::optional<GoalTime> PvtPlayer::committed() const {
   if (phase_ == Phase::Ending || finished_) return kEndCommitted;
   if (phase_ != Phase::Moving) return std::nullopt;
-  return feed_.all_sent() ? kEndCommitted : timeline_.at(sent_until());
+  return feed_.all_committed() ? kEndCommitted : timeline_.at(kept_until());
 }
 
-std::optional<Refusal> PvtPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
-  const double from = sent_until();
+void PvtPlayer::hold(GoalTime until) {
+  const double known = kept_until();
+  feed_.commit(known + (until - timeline_.at(known)).count());
+}
+
+TailEncoderPtr PvtPlayer::encoder_behind(Pace pace) const {
+  const double from = kept_until();
   const GoalTime reached = timeline_.at(from);
   const double due = seconds(clock_.host_time(from) - origin_);
   const double rate = clock_.goal_rate(due - reached.count());
-  auto way_on = plan_pvt_way_on(drive_, trajectory::remainder(path, reached, rate), feed_.sent_knot(), pace);
-  if (!way_on) return way_on.error();
-  way_on_ = std::move(way_on.value());
-  way_on_.rate = rate;
-  return std::nullopt;
+  return pvt_way_on_encoder(drive_, pace, {feed_.committed_knot(), reached, rate, feed_.committed_part()});
 }
 
-std::vector<RecordSlot> PvtPlayer::follow_slots() const {
-  RecordFeed feed = feed_;
-  feed.replace_unsent(way_on_.stream, way_on_.limits);
-  const double from = sent_until();
-  return feed.slots(timeline_.at(from) - GoalTime{from});
+bool PvtPlayer::can_follow(const Tail& tail) const {
+  const encoding::PvtKnot& from = own<const PvtWayOn>(tail).from;
+  return phase_ == Phase::Moving && !feed_.all_committed() && feed_.committed_knot().sample == from.sample;
 }
 
-void PvtPlayer::follow() {
-  timeline_.change_rate(sent_until(), way_on_.rate);
-  feed_.replace_unsent(way_on_.stream, way_on_.limits);
+void PvtPlayer::follow(TailPtr tail) {
+  PvtWayOn& way_on = own<PvtWayOn>(*tail);
+  timeline_.change_rate(kept_until(), way_on.rate);
+  feed_.replace_uncommitted(way_on.stream, way_on.limits);
 }
 
 // Stopping.

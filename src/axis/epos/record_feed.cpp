@@ -11,6 +11,7 @@ void RecordFeed::load(const encoding::PvtStream& stream, const FeedLimits& limit
   records_.clear();
   forgotten_ = 0;
   sent_ = 0;
+  committed_ = 0;
   append(stream.records);
 }
 
@@ -40,16 +41,32 @@ void RecordFeed::mark_sent() {
   ++forgotten_;
 }
 
-encoding::PvtKnot RecordFeed::sent_knot() const {
-  if (sent_ == 0) return {0, start_position_, 0};
-  const Entry& last = kept(sent_ - 1);
+void RecordFeed::commit(double until) {
+  while (!all_committed() && (committed() == 0 || end(committed() - 1) < until)) committed_ = committed() + 1;
+}
+
+encoding::PvtKnot RecordFeed::committed_knot() const {
+  if (committed() == 0) return {0, start_position_, 0};
+  const Entry& last = kept(committed() - 1);
   return {std::llround(last.end * 1e3), last.record.position, last.record.velocity};
 }
 
-void RecordFeed::replace_unsent(const encoding::PvtStream& stream, const FeedLimits& limits) {
+void RecordFeed::replace_uncommitted(const encoding::PvtStream& stream, const FeedLimits& limits) {
   limits_ = limits;
-  records_.resize(sent_ - forgotten_);
+  records_.resize(committed() - forgotten_);
   append(stream.records);
+}
+
+RecordFeed RecordFeed::committed_part() const {
+  RecordFeed part;
+  part.limits_ = limits_;
+  part.start_position_ = start_position_;
+  part.records_.assign(records_.begin(),
+                       records_.begin() + static_cast<std::ptrdiff_t>(committed() - forgotten_));
+  part.forgotten_ = forgotten_;
+  part.sent_ = sent_;
+  part.committed_ = committed_;
+  return part;
 }
 
 bool RecordFeed::has_place(double least_played) const {

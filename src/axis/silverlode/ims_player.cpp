@@ -34,13 +34,9 @@ std::unique_ptr<SegmentDelivery> make_delivery(const SilverlodeAxisParameters& p
   return std::make_unique<QueueDelivery>(context, static_cast<std::size_t>(parameters.queue_depth));
 }
 
-double horizon_of(const SilverlodeAxisParameters& parameters, Pace pace) {
-  return pace == Pace::Stream ? parameters.stream_horizon : parameters.commit_horizon;
-}
-
 /// Goal seconds per drive second for the next segment.
 double rate_for_next(const SegmentFeed& feed, const PlaybackClock& clock, HostTime begin) {
-  const HostTime knot = clock.host_time(feed.queue_end());
+  const HostTime knot = clock.host_time(feed.knot_end());
   const double due = (feed.start_goal_time() + GoalTime{seconds(knot - begin)}).count();
   return clock.goal_rate(due - feed.knot_goal_time().count());
 }
@@ -163,13 +159,9 @@ HostDuration ImsPlayer::longest_motion(HostTime now) const {
 
 // From a path to a drive that plays it.
 
-std::optional<Refusal> ImsPlayer::plan(const trajectory::Path& path, double rest, GoalTime) {
-  const std::int32_t counts = parameters_.transmission.nearest_counts(rest);
-  auto plan = plan_ims_goal(parameters_, *delivery_, stage_.line(), path, counts);
-  if (!plan) return plan.error();
-  plan.value().lead = planned_.lead;  // of what is loaded
-  planned_ = std::move(plan.value());
-  return std::nullopt;
+TailEncoderPtr ImsPlayer::encoder_at_rest(double rest, GoalTime) const {
+  return ims_goal_encoder(parameters_, *delivery_, stage_.line(),
+                          parameters_.transmission.nearest_counts(rest));
 }
 
 GoalTime ImsPlayer::start_lead() const {
@@ -187,13 +179,14 @@ BusWatch ImsPlayer::bus_watch() const {
           seconds(stage_.pace().overdue()), GoalTime{filling + kSmallest}};
 }
 
-void ImsPlayer::load(HostTime now) {
-  stream_origin_ = planned_.origin;
+void ImsPlayer::load(TailPtr tail, HostTime now) {
+  const ImsPlan& plan = own<ImsPlan>(*tail);
+  stream_origin_ = plan.origin;
   stream_begin_ = GoalTime{0.0};
-  const double horizon = horizon_of(parameters_, stream_origin_ ? Pace::Stream : Pace::Goal);
-  feed_.load(planned_.path, {planned_.encoding, horizon}, rest_counts_, delivery_->capacity());
-  planned_.lead = start_lead().count();
-  feed_.wait(std::llround(kFirstWait * planned_.lead / parameters_.scale.tick));
+  const double horizon = ims_horizon(parameters_, stream_origin_ ? Pace::Stream : Pace::Goal);
+  feed_.load(plan.path, {plan.encoding, horizon}, rest_counts_, delivery_->capacity());
+  lead_ = start_lead().count();
+  feed_.wait(std::llround(kFirstWait * lead_ / parameters_.scale.tick));
   finished_ = false;
   begin_ = kNever;
   second_wait_made_ = false;
@@ -208,11 +201,11 @@ void ImsPlayer::load(HostTime now) {
 
 void ImsPlayer::arm(HostTime begin, HostTime now) {
   if (phase_ != Phase::Loaded) return;
-  if (seconds(begin - now) < (1.0 - kLatestTold) * planned_.lead) {
+  if (seconds(begin - now) < (1.0 - kLatestTold) * lead_) {
     return stage_.fail(
         fmt::format("it was told {:.3f} s before the common start that it needs to know {:.3f} s before: the "
                     "host has stalled",
-                    seconds(begin - now), planned_.lead),
+                    seconds(begin - now), lead_),
         now);
   }
   begin_ = begin;
@@ -327,12 +320,12 @@ void ImsPlayer::stop(HostTime now) {
 
 // A path that changes: it may do so behind the segment that has been encoded last.
 
-std::optional<Refusal> ImsPlayer::plan_stream(HostTime origin, GoalTime rest) {
-  planned_ = {trajectory::with_rest(trajectory::Path(rest_position()), rest),
-              {},
-              origin,
-              ims_stream_encoding(parameters_, *delivery_, stage_.line())};
-  return std::nullopt;
+Expected<TailPtr, Refusal> ImsPlayer::standing_tail(HostTime origin, GoalTime rest) const {
+  auto plan = std::make_unique<ImsPlan>();
+  plan->path = trajectory::with_rest(trajectory::Path(rest_position()), rest);
+  plan->origin = origin;
+  plan->encoding = ims_stream_encoding(parameters_, *delivery_, stage_.line());
+  return TailPtr(std::move(plan));
 }
 
 std::optional<GoalTime> ImsPlayer::committed() const {
@@ -341,18 +334,22 @@ std::optional<GoalTime> ImsPlayer::committed() const {
   return feed_.ending() ? kEndCommitted : stream_begin_ + feed_.knot_goal_time();
 }
 
-std::optional<Refusal> ImsPlayer::plan_follow(const trajectory::Path& path, Pace pace) {
-  const trajectory::Path own = trajectory::shifted(path, GoalTime{0.0} - stream_begin_);
-  const auto encoding = pace == Pace::Goal ? ims_goal_encoding(parameters_, *delivery_, stage_.line())
-                                           : ims_stream_encoding(parameters_, *delivery_, stage_.line());
-  return feed_.plan_way_on(own, {encoding, horizon_of(parameters_, pace), pace == Pace::Goal},
-                           parameters_.stream_deviation_bound);
+void ImsPlayer::hold(GoalTime until) {
+  feed_.commit(until - stream_begin_, rate_for_next(feed_, clock_, begin_));
 }
 
-std::vector<RecordSlot> ImsPlayer::follow_slots() const {
-  const std::vector<double> begins = feed_.way_on_begins(delivery_->capacity());
-  return ims_slots_in_motion(parameters_, *delivery_, begins, begins.size() - feed_.way_on_size(),
-                             stream_begin_);
+TailEncoderPtr ImsPlayer::encoder_behind(Pace pace) const {
+  return ims_way_on_encoder(parameters_, *delivery_, stage_.line(), feed_, stream_begin_, pace);
+}
+
+bool ImsPlayer::can_follow(const Tail& tail) const {
+  return phase_ == Phase::Moving && !feed_.ending() &&
+         feed_.knot_goal_time() == own<const ImsWayOn>(tail).from;
+}
+
+void ImsPlayer::follow(TailPtr tail) {
+  ImsWayOn& way_on = own<ImsWayOn>(*tail);
+  feed_.take_way_on(std::move(way_on.source), way_on.widest);
 }
 
 // Results.
@@ -366,7 +363,7 @@ GoalTime ImsPlayer::playback_of_feed(HostTime when) const {
   if (!feed_.loaded()) return GoalTime{0.0};
   if (clock_.running() && second_wait_made_) return feed_.goal_time_at(clock_.elapsed(when));
   if (finished_) return feed_.path().end_time() + GoalTime{seconds(when - stage_.time().since())};
-  return feed_.start_goal_time() - GoalTime{planned_.lead};
+  return feed_.start_goal_time() - GoalTime{lead_};
 }
 
 void ImsPlayer::motion_status(HostTime now, AxisStatus& out) const {

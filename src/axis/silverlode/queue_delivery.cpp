@@ -85,14 +85,16 @@ double QueueDelivery::record_time() const {
 }
 
 // A segment's place becomes free when the drive begins the segment `depth_` before it.
-std::vector<RecordSlot> QueueDelivery::slots(const std::vector<double>& begins, double horizon) const {
-  std::vector<RecordSlot> slots(begins.size());
-  for (std::size_t i = 0; i < begins.size(); ++i) {
-    const double place_free = i < depth_ ? 0.0 : begins[i - depth_] + kNotice;
-    const double release = std::max(place_free, wanted_at(begins, i, horizon));
-    slots[i] = {GoalTime{release}, GoalTime{begins[i]}};
-  }
-  return slots;
+SegmentDelivery::SlotRule QueueDelivery::slot_rule(double horizon) const {
+  return [horizon, depth = depth_](const std::vector<double>& begins) {
+    std::vector<RecordSlot> slots(begins.size());
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+      const double place_free = i < depth ? 0.0 : begins[i - depth] + kNotice;
+      const double release = std::max(place_free, wanted_at(begins, i, horizon));
+      slots[i] = {GoalTime{release}, GoalTime{begins[i]}};
+    }
+    return slots;
+  };
 }
 
 void QueueDelivery::begin() {

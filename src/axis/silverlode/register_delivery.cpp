@@ -86,19 +86,20 @@ double RegisterDelivery::shortest_segment() const {
 
 // Five writes a segment: four into a block, which is free when the drive begins the segment that is in it,
 // and the one that hands it over, when the drive begins the segment before.
-std::vector<RecordSlot> RegisterDelivery::slots(const std::vector<double>& begins, double horizon) const {
-  const std::size_t blocks = registers_.blocks;
-  std::vector<RecordSlot> slots;
-  slots.reserve(kWrites * begins.size());
-  for (std::size_t i = 0; i < begins.size(); ++i) {
-    const double block_free = i < blocks ? 0.0 : begins[i - blocks] + kNotice;
-    const double before_taken = i < 1 ? 0.0 : begins[i - 1] + kNotice;
-    const GoalTime deadline{i < 1 ? 0.0 : begins[i] - reserve()};
-    const GoalTime wanted{std::max(block_free, wanted_at(begins, i, horizon))};
-    slots.insert(slots.end(), kBlock, {wanted, deadline});
-    slots.push_back({GoalTime{std::max(before_taken, wanted.count())}, deadline});
-  }
-  return slots;
+SegmentDelivery::SlotRule RegisterDelivery::slot_rule(double horizon) const {
+  return [horizon, blocks = registers_.blocks, reserve = reserve()](const std::vector<double>& begins) {
+    std::vector<RecordSlot> slots;
+    slots.reserve(kWrites * begins.size());
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+      const double block_free = i < blocks ? 0.0 : begins[i - blocks] + kNotice;
+      const double before_taken = i < 1 ? 0.0 : begins[i - 1] + kNotice;
+      const GoalTime deadline{i < 1 ? 0.0 : begins[i] - reserve};
+      const GoalTime wanted{std::max(block_free, wanted_at(begins, i, horizon))};
+      slots.insert(slots.end(), kBlock, {wanted, deadline});
+      slots.push_back({GoalTime{std::max(before_taken, wanted.count())}, deadline});
+    }
+    return slots;
+  };
 }
 
 // Sending.

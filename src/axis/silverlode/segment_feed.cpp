@@ -23,7 +23,7 @@ void SegmentFeed::load(const trajectory::Path& path, const Manner& manner, std::
   start_counts_ = start_counts;
   depth_ = depth;
   tick_ = encoding.scale.tick;
-  next_.reset();
+  encoded_.clear();
   stretches_.clear();
   sent_ = 0;
   end_tick_ = 0;
@@ -38,50 +38,48 @@ void SegmentFeed::take(std::unique_ptr<Source> source) {
       static_cast<std::int32_t>(std::lround(source_->encoding.transmission.counts(final_position)));
 }
 
-// Encoded to its end before it is taken: what the drive is given always leads to rest. It begins a little
-// below the bound that was needed the last time, since bounds that are too narrow take the longest to be
-// refused.
-std::optional<Refusal> SegmentFeed::plan_way_on(const trajectory::Path& path, Manner manner, double widest) {
-  const encoding::ImsKnot& knot = source_->encoder.knot();
-  const double first = source_->encoding.bound_counts / 2.0;
-  const auto plan = manner.comes_close ? plan_ims_approach : plan_ims_way_on;
-  auto approach = plan(path, manner.encoding, knot, first, widest);
-  if (!approach) return approach.error();
-  manner.encoding.bound_counts = approach.value().bound;
-  way_on_ = std::make_unique<Source>(path, manner, knot);
-  way_on_->bounds = std::move(approach.value().bounds);
-  way_on_ticks_ = std::move(approach.value().ticks);
-  widest_ = widest;
-  return std::nullopt;
-}
-
-std::vector<double> SegmentFeed::way_on_begins(std::size_t before) const {
-  const double knot = knot_goal_time().count();
+std::vector<double> SegmentFeed::begins_before_knot(std::size_t most) const {
+  const double origin = knot_goal_time().count() - knot_end();
   std::vector<double> begins;
-  const std::size_t kept = std::min(before, stretches_.size());
-  for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(kept); it != stretches_.end(); ++it)
-    begins.push_back(knot + tick_ * static_cast<double>(it->begin) - knot_end());
-  if (next_) begins.push_back(knot + tick_ * static_cast<double>(next_->begin) - knot_end());
-  begins.push_back(knot);
-  for (const std::int64_t ticks : way_on_ticks_)
-    begins.push_back(begins.back() + tick_ * static_cast<double>(ticks));
+  const std::size_t remembered = std::min(most, stretches_.size());
+  for (auto it = stretches_.end() - static_cast<std::ptrdiff_t>(remembered); it != stretches_.end(); ++it)
+    begins.push_back(origin + tick_ * static_cast<double>(it->begin));
+  for (const Stretch& stretch : encoded_)
+    begins.push_back(origin + tick_ * static_cast<double>(stretch.begin));
+  begins.push_back(knot_goal_time().count());
   return begins;
 }
 
-void SegmentFeed::take_way_on() { take(std::move(way_on_)); }
+void SegmentFeed::take_way_on(std::unique_ptr<Source> way_on, double widest) {
+  widest_ = widest;
+  take(std::move(way_on));
+}
+
+void SegmentFeed::commit(GoalTime until, double rate) {
+  while (!ending() && knot_goal_time() < until) {
+    if (encode_one(rate)) return;
+  }
+}
 
 const trajectory::Path& SegmentFeed::path() const { return source_->path; }
 
 void SegmentFeed::wait(std::int64_t ticks) {
   const ImsSegment standing{static_cast<std::int32_t>(ticks), start_counts_, 0, 0};
-  next_ = Stretch{end_tick_, ticks, start_goal_time_, 0.0, standing, source_->encoder.knot().state};
+  encoded_.push_back({knot_tick(), ticks, start_goal_time_, 0.0, standing, knot().state});
+  last_ = standing;
   waited_ += ticks;
 }
 
 Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
-  if (next_) return next_->segment;
+  if (encoded_.empty()) {
+    if (auto refusal = encode_one(rate)) return *refusal;
+  }
+  return encoded_.front().segment;
+}
+
+std::optional<Refusal> SegmentFeed::encode_one(double rate) {
   take_bound();
-  Stretch stretch{end_tick_, 0, knot_goal_time(), rate, {}, source_->encoder.knot().state};
+  Stretch stretch{knot_tick(), 0, knot_goal_time(), rate, {}, knot().state};
   std::optional<Refusal> refusal = encode_next(rate, stretch);
   // At another rate than it was tried out with, a way on may become too narrow.
   while (refusal && 2.0 * source_->encoding.bound_counts <= widest_) {
@@ -98,15 +96,16 @@ Expected<ImsSegment, Refusal> SegmentFeed::next(double rate) {
     encode_as(shorter);
     refusal = encode_next(rate, stretch);
   }
-  if (refusal) return *refusal;
-  next_ = stretch;
-  return stretch.segment;
+  if (refusal) return refusal;
+  last_ = stretch.segment;
+  encoded_.push_back(stretch);
+  return std::nullopt;
 }
 
 /// What is left of the path is encoded in another way, from the knot on.
 void SegmentFeed::encode_as(const encoding::ImsEncoding& encoding) {
   Manner manner{encoding, horizon()};
-  auto source = std::make_unique<Source>(source_->path, manner, source_->encoder.knot());
+  auto source = std::make_unique<Source>(source_->path, manner, knot());
   source->bounds = std::move(source_->bounds);
   take(std::move(source));
 }
@@ -139,13 +138,13 @@ std::optional<Refusal> SegmentFeed::encode_next(double rate, Stretch& stretch) {
 }
 
 void SegmentFeed::mark_sent() {
-  last_ = next_->segment;
-  terminated_ = last_.time == 0;
-  stretches_.push_back(*next_);
+  const Stretch& next = encoded_.front();
+  terminated_ = next.segment.time == 0;
+  stretches_.push_back(next);
   forget_old_stretches();
-  end_tick_ += next_->ticks;
+  end_tick_ += next.ticks;
   ++sent_;
-  next_.reset();
+  encoded_.pop_front();
 }
 
 void SegmentFeed::forget_old_stretches() {
@@ -206,11 +205,11 @@ SegmentFeed::Instant SegmentFeed::after(const Stretch& stretch, std::int64_t tic
           std::abs(static_cast<double>(state.velocity)) * law.counts_per_unit()};
 }
 
-double SegmentFeed::knot_end() const {
-  return tick_ * static_cast<double>(end_tick_ + (next_ ? next_->ticks : 0));
+std::int64_t SegmentFeed::knot_tick() const {
+  return encoded_.empty() ? end_tick_ : encoded_.back().begin + encoded_.back().ticks;
 }
 
-GoalTime SegmentFeed::knot_goal_time() const { return source_->encoder.knot().goal_time; }
+double SegmentFeed::knot_end() const { return tick_ * static_cast<double>(knot_tick()); }
 
 GoalTime SegmentFeed::goal_time_at(double drive_seconds) const {
   if (!source_) return GoalTime{0.0};

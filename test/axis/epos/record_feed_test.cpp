@@ -113,11 +113,11 @@ TEST(RecordFeed, WhatHasNotBeenSentCanBeReplaced) {
   RecordFeed feed;
   feed.load(stream(10, 20), {64, 0.08});
   EXPECT_EQ(send_all_due(feed, 0.0, 0.0), 5);
-  EXPECT_EQ(feed.sent_knot().sample, 100);
-  EXPECT_EQ(feed.sent_knot().position, 500);
+  EXPECT_EQ(feed.committed_knot().sample, 100);
+  EXPECT_EQ(feed.committed_knot().position, 500);
   encoding::PvtStream other;
   other.records = {{700, 3, 30}, {800, 0, 40}};
-  feed.replace_unsent(other, {64, 0.1});
+  feed.replace_uncommitted(other, {64, 0.1});
   EXPECT_EQ(feed.size(), 8u);
   EXPECT_EQ(feed.sent(), 5u);
   EXPECT_NEAR(feed.duration(), 0.170, 1e-12);
@@ -133,7 +133,7 @@ TEST(RecordFeed, CountsOnWhenOldRecordsAreForgotten) {
   feed.load(stream(10, 20), {64, 0.1});
   double elapsed = 0.0;
   for (std::size_t i = 0; i < 5000; ++i) {
-    feed.replace_unsent(stream(10, 20), {64, 0.1});
+    feed.replace_uncommitted(stream(10, 20), {64, 0.1});
     while (feed.next(elapsed, elapsed)) feed.mark_sent();
     ASSERT_FALSE(feed.all_sent());
     ASSERT_EQ(feed.played(elapsed + 0.01), i);

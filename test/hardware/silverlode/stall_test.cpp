@@ -95,9 +95,9 @@ class SilverlodeHostStall : public testing::Test {
   /// Until `for_seconds` after the begin of the path.
   void move(double for_seconds, double cruise = 8.0) {
     prepare();
-    const auto refusal = axis.plan(there(cruise), axis.rest_position(), GoalTime{0.0});
-    ASSERT_FALSE(refusal) << refusal->text;
-    axis.load(now());
+    auto tail = axis.encoder_at_rest(axis.rest_position(), GoalTime{0.0})->encode(there(cruise));
+    ASSERT_TRUE(tail) << tail.error().text;
+    axis.load(std::move(tail.value()), now());
     ASSERT_TRUE(comes_to(AxisState::Loaded)) << axis.fault_text();
     const HostTime begin = now() + host_duration(axis.start_lead().count());
     axis.arm(begin, now());

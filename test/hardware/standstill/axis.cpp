@@ -20,6 +20,36 @@ std::int32_t position_in(const canopen::Frame& frame) {
   return static_cast<std::int32_t>(bits);
 }
 
+struct StandstillTail : axis::Tail {
+  trajectory::Path path;
+};
+
+class StandstillEncoder : public axis::TailEncoder {
+ public:
+  StandstillEncoder(std::string who, const encoding::Transmission& transmission, double here)
+      : who_(std::move(who)), transmission_(transmission), here_(here) {}
+
+  Expected<axis::TailPtr, Refusal> encode(const trajectory::Path& path) const override {
+    for (const trajectory::Piece& piece : path.pieces()) {
+      for (double look = 0.0; look <= kLooksAtAPiece; ++look) {
+        const GoalTime time = piece.start + look / kLooksAtAPiece * piece.duration();
+        const double away = path.sample(time).position - here_;
+        if (std::abs(away * transmission_.counts_per_radian()) <= 1.0) continue;
+        return Refusal{GoalError::InvalidGoal,
+                       fmt::format("{} stands still at {:.4f} rad; the goal leads away.", who_, here_)};
+      }
+    }
+    auto tail = std::make_unique<StandstillTail>();
+    tail->path = path;
+    return axis::TailPtr(std::move(tail));
+  }
+
+ private:
+  std::string who_;
+  encoding::Transmission transmission_;
+  double here_;
+};
+
 }  // namespace
 
 StandstillAxis::StandstillAxis(axis::AxisParameters parameters, canopen::Master& master,
@@ -59,31 +89,23 @@ void StandstillAxis::lose(const std::string& reason) {
   fault_text_ = fmt::format("{}: {}.", who(), reason);
 }
 
-std::optional<Refusal> StandstillAxis::plan(const trajectory::Path& path, double /*rest*/,
-                                            GoalTime /*wait*/) {
-  const double here = parameters_.transmission.counts(feedback_.position);
-  for (const trajectory::Piece& piece : path.pieces()) {
-    for (double look = 0.0; look <= kLooksAtAPiece; ++look) {
-      const GoalTime time = piece.start + look / kLooksAtAPiece * piece.duration();
-      const double there = parameters_.transmission.counts(path.sample(time).position);
-      if (std::abs(there - here) <= 1.0) continue;
-      return Refusal{
-          GoalError::InvalidGoal,
-          fmt::format("{} stands still at {:.4f} rad; the goal leads away.", who(), feedback_.position)};
-    }
-  }
-  planned_ = path;
-  finished_ = false;
-  return std::nullopt;
+axis::TailEncoderPtr StandstillAxis::encoder_at_rest(double /*rest*/, GoalTime /*wait*/) const {
+  return std::make_unique<StandstillEncoder>(who(), parameters_.transmission, feedback_.position);
 }
 
-std::optional<Refusal> StandstillAxis::plan_stream(HostTime /*origin*/, GoalTime /*rest*/) {
-  planned_ = trajectory::Path(feedback_.position);
-  return std::nullopt;
+void StandstillAxis::load(axis::TailPtr tail, HostTime /*now*/) {
+  follow(std::move(tail));
+  finished_ = false;
+  state_ = AxisState::Loaded;
+}
+
+void StandstillAxis::follow(axis::TailPtr tail) { path_ = axis::own<StandstillTail>(*tail).path; }
+
+Expected<axis::TailPtr, Refusal> StandstillAxis::standing_tail(HostTime /*origin*/, GoalTime /*rest*/) const {
+  return encoder_at_rest(0.0, {})->encode(trajectory::Path(feedback_.position));
 }
 
 void StandstillAxis::arm(HostTime begin, HostTime /*now*/) {
-  path_ = planned_;
   begin_ = begin;
   state_ = AxisState::Moving;
 }

@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/axis_parameters.h"
@@ -33,22 +32,20 @@ class StandstillAxis : public axis::Axis {
 
   double rest_position() const override { return feedback_.position; }
   GoalTime start_lead() const override { return GoalTime{0.02}; }
-  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
-  std::vector<axis::RecordSlot> record_slots() const override { return {}; }
+  axis::TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const override;
   double record_bus_time() const override { return 0.0; }
-  void load(HostTime) override { state_ = axis::AxisState::Loaded; }
+  void load(axis::TailPtr tail, HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override { return begin_; }
   void stop(HostTime) override { state_ = axis::AxisState::Ready; }
 
-  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  Expected<axis::TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const override;
   GoalTime stream_lead() const override { return GoalTime{0.0}; }
   std::optional<GoalTime> committed() const override { return playback(polled_); }
-  std::optional<Refusal> plan_follow(const trajectory::Path& path, axis::Pace) override {
-    return plan(path, rest_position(), {});
-  }
-  std::vector<axis::RecordSlot> follow_slots() const override { return {}; }
-  void follow() override { path_ = planned_; }
+  void hold(GoalTime) override {}
+  axis::TailEncoderPtr encoder_behind(axis::Pace) const override { return encoder_at_rest(0.0, {}); }
+  bool can_follow(const axis::Tail&) const override { return state_ == axis::AxisState::Moving; }
+  void follow(axis::TailPtr tail) override;
 
   GoalTime playback(HostTime when) const override;
   GoalTime goal_time_at(double drive_seconds) const override;
@@ -69,7 +66,6 @@ class StandstillAxis : public axis::Axis {
   HostTime since_{};  ///< begin of the search
   HostTime polled_{};
   axis::AxisFeedback feedback_;
-  trajectory::Path planned_;
   trajectory::Path path_;
   HostTime begin_ = kNever;
   bool finished_ = false;

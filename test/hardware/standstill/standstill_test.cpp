@@ -58,6 +58,7 @@ class Standstill : public testing::Test {
 };
 
 TEST_F(Standstill, TakesPartInAGoalToWhereItStands) {
+  driver.read(now, HostDuration{0});
   EXPECT_NEAR(*driver.joints()[1].position, kHere, 1e-4);
   const auto accepted = driver.submit(make_goal({1.0, 2.0}, {{0.2, kHere}, {0.5, kHere}}), now);
   ASSERT_TRUE(accepted) << accepted.error().text;

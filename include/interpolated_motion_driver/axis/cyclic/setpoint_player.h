@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/cia402/power_stage.h"
 #include "interpolated_motion_driver/axis/cyclic/cyclic_device.h"
+#include "interpolated_motion_driver/axis/cyclic/setpoint_plan.h"
 #include "interpolated_motion_driver/axis/player.h"
-#include "interpolated_motion_driver/encoding/setpoint_certificate.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 
 namespace interpolated_motion::axis {
@@ -15,11 +14,11 @@ namespace interpolated_motion::axis {
 /// Plays paths on a CiA 402 drive in the cyclic synchronous position mode (mode 8).
 ///
 /// From the moment it is enabled the drive gets one target position per SYNC, at rest as well, and
-/// interpolates between them by itself. A goal's way: plan() executes its target positions as the drive will
-/// and holds them against the path; load() has nothing to load; from arm() on the target positions are those
-/// of the path. stop() leaves the path for one to rest within the joint's limits. When target positions fail
-/// to come the drive goes on along its polynomial for a few periods and then faults: a host that stalls or
-/// dies stops the drive so.
+/// interpolates between them by itself. A goal's way: its encoder executes its target positions as the drive
+/// will and holds them against the path; load() has nothing to load; from arm() on the target positions are
+/// those of the path. stop() leaves the path for one to rest within the joint's limits. When target positions
+/// fail to come the drive goes on along its polynomial for a few periods and then faults: a host that stalls
+/// or dies stops the drive so.
 class SetpointPlayer final : public Player {
  public:
   /// `stage` and `drive`, its device, must outlive the player.
@@ -37,22 +36,21 @@ class SetpointPlayer final : public Player {
 
   double rest_position() const override;
   GoalTime start_lead() const override;
-  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
-  /// None: target positions go to the bus at rest as well, so no goal adds to what the bus carries.
-  std::vector<RecordSlot> record_slots() const override { return {}; }
+  TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const override;
   double record_bus_time() const override { return drive_.parameters().record_bus_time; }
-  void load(HostTime now) override;
+  void load(TailPtr tail, HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override;
   void stop(HostTime now) override;
 
-  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const override;
   GoalTime stream_lead() const override;
   std::optional<GoalTime> committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
+  void hold(GoalTime until) override;
+  TailEncoderPtr encoder_behind(Pace pace) const override;
   trajectory::DemandCheck demand_check() const override;
-  std::vector<RecordSlot> follow_slots() const override { return {}; }
-  void follow() override;
+  bool can_follow(const Tail& tail) const override;
+  void follow(TailPtr tail) override;
 
   GoalTime playback(HostTime when) const override;
   /// The drive follows SYNC, so its clock is the host's.
@@ -85,12 +83,11 @@ class SetpointPlayer final : public Player {
   Phase phase_ = Phase::Off;
   std::int32_t rest_counts_ = 0;
 
-  trajectory::Path planned_;
-  std::optional<HostTime> planned_origin_;  ///< host time of goal time 0, for a stream
   trajectory::Path path_;
-  std::optional<HostTime> stream_origin_;
+  std::optional<HostTime> stream_origin_;  ///< host time of goal time 0, for a stream
   HostTime begin_ = kNever;
-  HostTime origin_{};  ///< of goal time 0, once begin_ is known
+  HostTime origin_{};                ///< of goal time 0, once begin_ is known
+  HostTime held_ = HostTime::min();  ///< of hold()
   bool finished_ = false;
 
   std::uint64_t sent_ = 0;

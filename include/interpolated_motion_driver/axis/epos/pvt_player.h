@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/cia402/power_stage.h"
 #include "interpolated_motion_driver/axis/epos/epos_device.h"
@@ -20,10 +19,11 @@ namespace interpolated_motion::axis {
 
 /// Plays paths on an EPOS drive in Interpolated Position Mode (mode 7).
 ///
-/// A goal's way: plan() encodes; load() fills the FIFO (FifoLoader); arm() sends controlword 0x1F, obeyed at
-/// the next SYNC; then records follow by time, on the drive's own clock as PlaybackClock knows it; the record
-/// with time 0 ends the mode; controlword 0x0F follows. stop() sets halt, waits for standstill, leaves the
-/// mode while halt is still set (clearing halt first could resume the motion), empties the FIFO.
+/// A goal's way: its encoder makes a tail of it; load() fills the FIFO (FifoLoader); arm() sends controlword
+/// 0x1F, obeyed at the next SYNC; then records follow by time, on the drive's own clock as PlaybackClock
+/// knows it; the record with time 0 ends the mode; controlword 0x0F follows. stop() sets halt, waits for
+/// standstill, leaves the mode while halt is still set (clearing halt first could resume the motion), empties
+/// the FIFO.
 class PvtPlayer final : public Player {
  public:
   /// `stage` and `drive`, its device, must outlive the player.
@@ -38,22 +38,20 @@ class PvtPlayer final : public Player {
 
   double rest_position() const override;
   GoalTime start_lead() const override { return GoalTime{0.0}; }
-  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
-  std::vector<RecordSlot> record_slots() const override {
-    return planned_.feed.slots(planned_.start - planned_.wait);
-  }
+  TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const override;
   double record_bus_time() const override { return drive_.parameters().record_bus_time; }
-  void load(HostTime now) override;
+  void load(TailPtr tail, HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override;
   void stop(HostTime now) override;
 
-  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const override;
   GoalTime stream_lead() const override { return pvt_stream_lead(drive_); }
   std::optional<GoalTime> committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
-  std::vector<RecordSlot> follow_slots() const override;
-  void follow() override;
+  void hold(GoalTime until) override;
+  TailEncoderPtr encoder_behind(Pace pace) const override;
+  bool can_follow(const Tail& tail) const override;
+  void follow(TailPtr tail) override;
 
   GoalTime playback(HostTime when) const override { return goal_time_at(clock_.elapsed(when)); }
   GoalTime goal_time_at(double drive_seconds) const override { return timeline_.at(drive_seconds); }
@@ -84,7 +82,7 @@ class PvtPlayer final : public Player {
   void enter(Phase phase, HostTime now);
   bool is_playing() const { return phase_ == Phase::Armed || phase_ == Phase::Moving; }
   void start_clock();
-  double sent_until() const;  ///< s on the drive's clock
+  double kept_until() const;  ///< s on the drive's clock, see RecordFeed::knot()
   void watch_motion(HostTime now);
   void end_of_motion(HostTime now);
   void start_emptying(HostTime now);
@@ -96,13 +94,11 @@ class PvtPlayer final : public Player {
   bool watches_as_at_rest_ =
       false;  ///< in Ending: the drive has been told that it need not wait for the host
 
-  PvtPlan planned_;  ///< of plan() and plan_stream(), until load()
   RecordFeed feed_;
   GoalTimeline timeline_;
   GoalTime wait_{0.0};  ///< from the start signal to the path's start
   std::optional<HostTime> stream_origin_;
   HostTime origin_{};  ///< of goal time 0, once the clock runs
-  PvtWayOn way_on_;    ///< of plan_follow()
   PlaybackClock clock_;
   bool finished_ = false;
 

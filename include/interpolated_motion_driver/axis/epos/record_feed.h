@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -43,11 +44,17 @@ class RecordFeed {
   /// The record that next() has given is on its way; once for each.
   void mark_sent();
 
-  /// Where the records sent so far lead, as the drive counts its samples from the start of the plan.
-  encoding::PvtKnot sent_knot() const;
-  /// The records not yet sent are replaced by those of `stream`, which sets out from sent_knot(). Not once
-  /// all_sent().
-  void replace_unsent(const encoding::PvtStream& stream, const FeedLimits& limits);
+  /// The records up to `until`, s on the drive's clock, will not be replaced, even if not sent yet.
+  void commit(double until);
+  /// Where the records lead that are sent or committed to, as the drive counts its samples from the start of
+  /// the plan.
+  encoding::PvtKnot committed_knot() const;
+  bool all_committed() const { return committed() == size(); }
+  /// The records behind committed_knot() are replaced by those of `stream`, which sets out from there. Not
+  /// once all_committed().
+  void replace_uncommitted(const encoding::PvtStream& stream, const FeedLimits& limits);
+  /// A copy without the records behind committed_knot().
+  RecordFeed committed_part() const;
 
   /// Records of the plan and of them those sent, the one with time 0 and the forgotten ones included;
   /// duration(): s on the drive's clock from the start to the last record, 0 without records.
@@ -80,6 +87,7 @@ class RecordFeed {
   static constexpr std::size_t kMemory = 1024;
 
   void append(const std::vector<PvtRecord>& records);
+  std::size_t committed() const { return std::max(sent_, committed_); }
   const Entry& kept(std::size_t index) const;
   bool has_place(double least_played) const;
   bool is_within_horizon(double played) const;
@@ -90,6 +98,7 @@ class RecordFeed {
   std::deque<Entry> records_;
   std::size_t forgotten_ = 0;  ///< records before those kept
   std::size_t sent_ = 0;
+  std::size_t committed_ = 0;  ///< records, of commit(); may be fewer than those sent
   mutable std::size_t played_ =
       0;  ///< of records_, when it was asked last: mostly the next answer, or nearly
 };

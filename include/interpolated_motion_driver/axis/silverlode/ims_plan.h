@@ -1,28 +1,33 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/axis.h"
 #include "interpolated_motion_driver/axis/silverlode/segment_delivery.h"
+#include "interpolated_motion_driver/axis/silverlode/segment_feed.h"
 #include "interpolated_motion_driver/axis/silverlode/silverlode_parameters.h"
+#include "interpolated_motion_driver/axis/tail.h"
 #include "interpolated_motion_driver/encoding/ims/ims_encoder.h"
 #include "interpolated_motion_driver/protocol/silverlode/line_master.h"
 #include "interpolated_motion_driver/trajectory/path.h"
-#include "interpolated_motion_driver/units/expected.h"
-#include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
 
-/// What a SilverLode drive is to play, before any of it has been sent.
-struct ImsPlan {
+/// From rest.
+struct ImsPlan : Tail {
   trajectory::Path path;           ///< rad or m over goal time
-  std::vector<RecordSlot> slots;   ///< goal time, as Axis::record_slots() gives them
   std::optional<HostTime> origin;  ///< host time of goal time 0, for a stream
   encoding::ImsEncoding encoding;  ///< with which the path has been found possible
-  double lead = 0.0;               ///< s, from arm() to the begin of the path, as of load()
+};
+
+/// Behind the segments that have been encoded for a drive.
+struct ImsWayOn : Tail {
+  GoalTime from{0.0};                           ///< of the feed's knot
+  std::unique_ptr<SegmentFeed::Source> source;  ///< in the feed's own goal time
+  double widest = 0.0;                          ///< counts, up to where its bound may be doubled
 };
 
 /// Segments of each drive of a line that the lead has time for.
@@ -50,18 +55,19 @@ encoding::ImsEncoding ims_stream_encoding(const SilverlodeAxisParameters& parame
                                           const SegmentDelivery& delivery,
                                           const silverlode::LineMaster& line);
 
-/// The plan of a goal: `path` from `rest_counts`, where the demand rests. It is encoded whole to see that it
-/// can be done and what the line has to carry.
-Expected<ImsPlan, Refusal> plan_ims_goal(const SilverlodeAxisParameters& parameters,
-                                         const SegmentDelivery& delivery, const silverlode::LineMaster& line,
-                                         const trajectory::Path& path, std::int32_t rest_counts);
+/// Of goals from `rest_counts`, where the demand rests. They are encoded whole to see that they can be done
+/// and what the line has to carry.
+TailEncoderPtr ims_goal_encoder(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                                const silverlode::LineMaster& line, std::int32_t rest_counts);
 
-/// The records of segments that begin at `begins`, s, to be sent to a drive in motion that has the first
-/// `sent` of them already; `start`: goal time of 0 s.
-std::vector<RecordSlot> ims_slots_in_motion(const SilverlodeAxisParameters& parameters,
-                                            const SegmentDelivery& delivery,
-                                            const std::vector<double>& begins, std::size_t sent,
-                                            GoalTime start);
+/// Of ways on behind the knot of `feed`, whose goal time begins at goal time `begin`. Encoded to their end:
+/// what the drive is given always leads to rest.
+TailEncoderPtr ims_way_on_encoder(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,
+                                  const silverlode::LineMaster& line, const SegmentFeed& feed, GoalTime begin,
+                                  Pace pace);
+
+/// s of motion wanted in the drive.
+double ims_horizon(const SilverlodeAxisParameters& parameters, Pace pace);
 
 /// How far ahead of the present a stream is committed, at most.
 GoalTime ims_stream_lead(const SilverlodeAxisParameters& parameters, const SegmentDelivery& delivery,

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "interpolated_motion_driver/axis/playback_clock.h"
 #include "interpolated_motion_driver/axis/silverlode/execution_watch.h"
@@ -20,7 +19,7 @@ namespace interpolated_motion::axis {
 
 /// Plays paths on a SilverLode drive in interpolated motion (IMS).
 ///
-/// A goal's way: plan() encodes it whole, to see that it can be done; load() empties the drive's queue, looks
+/// A goal's way: it is encoded whole, to see that it can be done; load() empties the drive's queue, looks
 /// where the drive stands, and puts a first segment of waiting into it; arm() sends IMS. The time of that
 /// command tells when the drive began, so a second segment of waiting can end exactly at the instant the path
 /// is to begin at, however long the drives of a line had to wait for their turn. Then segments of the path
@@ -47,21 +46,21 @@ class ImsPlayer final : public SegmentPlayer {
 
   double rest_position() const override;
   GoalTime start_lead() const override;
-  std::optional<Refusal> plan(const trajectory::Path& path, double rest, GoalTime wait) override;
-  std::vector<RecordSlot> record_slots() const override { return planned_.slots; }
+  TailEncoderPtr encoder_at_rest(double rest, GoalTime wait) const override;
   double record_bus_time() const override { return delivery_->record_bus_time(); }
   BusWatch bus_watch() const override;
-  void load(HostTime now) override;
+  void load(TailPtr tail, HostTime now) override;
   void arm(HostTime begin, HostTime now) override;
   HostTime path_begin() const override { return begin_; }
   void stop(HostTime now) override;
 
-  std::optional<Refusal> plan_stream(HostTime origin, GoalTime rest) override;
+  Expected<TailPtr, Refusal> standing_tail(HostTime origin, GoalTime rest) const override;
   GoalTime stream_lead() const override { return ims_stream_lead(parameters_, *delivery_, stage_.line()); }
   std::optional<GoalTime> committed() const override;
-  std::optional<Refusal> plan_follow(const trajectory::Path& path, Pace pace) override;
-  std::vector<RecordSlot> follow_slots() const override;
-  void follow() override { feed_.take_way_on(); }
+  void hold(GoalTime until) override;
+  TailEncoderPtr encoder_behind(Pace pace) const override;
+  bool can_follow(const Tail& tail) const override;
+  void follow(TailPtr tail) override;
 
   GoalTime playback(HostTime when) const override { return stream_begin_ + playback_of_feed(when); }
   GoalTime goal_time_at(double drive_seconds) const override {
@@ -99,7 +98,7 @@ class ImsPlayer final : public SegmentPlayer {
   Phase phase_ = Phase::Off;
   std::int32_t rest_counts_ = 0;
 
-  ImsPlan planned_;
+  double lead_ = 0.0;  ///< s, from arm() to the begin of the path, as of load()
   std::optional<HostTime> stream_origin_;
   GoalTime stream_begin_{0.0};  ///< goal time at which the feed's own begins, other than 0 for a stream
   SegmentFeed feed_;

@@ -39,7 +39,7 @@ class RegisterDelivery : public SegmentDelivery {
   double record_bus_time() const override;
   double record_time() const override;
   std::size_t records_per_segment() const override { return kWrites; }
-  std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const override;
+  SlotRule slot_rule(double horizon) const override;
 
   void begin() override;
   Failure offer(bool more, double rate, HostTime now) override;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ class SegmentDelivery {
  public:
   using Steps = std::vector<CommandSequence::Step>;
   using Failure = std::optional<std::string>;
+  /// When what must cross the line for a path may and must do so: segment i begins at `begins[i]` seconds
+  /// after the path does, the segment that ends the motion at the last of them. A value, for any thread.
+  using SlotRule = std::function<std::vector<RecordSlot>(const std::vector<double>& begins)>;
 
   virtual ~SegmentDelivery() = default;
 
@@ -57,10 +61,8 @@ class SegmentDelivery {
   /// records that a segment is made of.
   virtual double record_time() const = 0;
   virtual std::size_t records_per_segment() const = 0;
-  /// When what must cross the line for a path may and must do so. Segment i begins at `begins[i]` seconds
-  /// after the path does, the segment that ends the motion at the last of them; those that begin within
-  /// `horizon` are wanted in the drive.
-  virtual std::vector<RecordSlot> slots(const std::vector<double>& begins, double horizon) const = 0;
+  /// With segments that begin within `horizon` seconds wanted in the drive.
+  virtual SlotRule slot_rule(double horizon) const = 0;
 
   /// A motion begins with nothing in the drive.
   virtual void begin() = 0;
@@ -108,7 +110,7 @@ class SegmentDelivery {
 /// Segments that are kept waiting in the drive however short the horizon.
 inline constexpr std::size_t kLeastAhead = 2;
 
-/// When segment `i` is wanted in the drive, s, see SegmentDelivery::slots(): within the horizon, and early
+/// When segment `i` is wanted in the drive, s, see SegmentDelivery::SlotRule: within the horizon, and early
 /// enough for kLeastAhead.
 double wanted_at(const std::vector<double>& begins, std::size_t i, double horizon);
 

@@ -27,8 +27,7 @@ class SegmentFeed {
   /// How a path is encoded, and how much of it is wanted in the drive.
   struct Manner {
     encoding::ImsEncoding encoding;
-    double horizon = 0.5;      ///< s
-    bool comes_close = false;  ///< a way on that needs a wider bound at first is worth narrowing it again
+    double horizon = 0.5;  ///< s
   };
 
   /// Begins anew, nothing sent. `depth`: places of the drive's queue, >= 1. Throws as
@@ -37,16 +36,31 @@ class SegmentFeed {
   /// Whether there has been a load(): path(), next() and all that tells of knots need one before.
   bool loaded() const { return source_ != nullptr; }
 
-  /// Encodes the way on along `path`, which is the former one up to knot_goal_time(): with the bound of
-  /// `manner`, doubled as often as it takes, up to `widest` counts. Refused when it cannot be followed even
-  /// so; then the feed is as it was. Not when ending().
-  std::optional<Refusal> plan_way_on(const trajectory::Path& path, Manner manner, double widest);
-  /// When the segments of that way begin, in goal time, the one that ends the motion included; in front of
-  /// them those of the last `before` segments of the former way.
-  std::vector<double> way_on_begins(std::size_t before) const;
-  std::size_t way_on_size() const { return way_on_ticks_.size() + 1; }  ///< segments, the last one included
-  /// Takes the way planned last by plan_way_on(), when no segment has been encoded since.
-  void take_way_on();
+  /// A path and its encoder, which refers to it.
+  struct Source {
+    /// Takes copies; encodes on from `from`. Not copied itself, since `encoder` refers to `path`.
+    Source(const trajectory::Path& p, const Manner& manner, const encoding::ImsKnot& from);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+    trajectory::Path path;           ///< rad or m over goal time
+    encoding::ImsEncoding encoding;  ///< with the bound that is in force
+    double horizon;                  ///< s
+    std::deque<BoundFrom> bounds;    ///< that are planned for later
+    encoding::ImsEncoder encoder;    ///< where the segments given out so far lead
+  };
+
+  /// Where the segments encoded so far lead. From there on the path may still change.
+  const encoding::ImsKnot& knot() const { return source_->encoder.knot(); }
+  double bound() const { return source_->encoding.bound_counts; }  ///< counts, in force at the knot
+  /// When the last segments before the knot begin, in goal time, as many as `most` of those sent; then those
+  /// that have been encoded and not been sent; the knot itself.
+  std::vector<double> begins_before_knot(std::size_t most) const;
+  std::size_t unsent() const { return encoded_.size(); }  ///< segments encoded, not marked as sent
+  /// From the knot on encodes `way_on`, made for it; the bound may be doubled up to `widest` counts where it
+  /// proves too narrow. Not when ending().
+  void take_way_on(std::unique_ptr<Source> way_on, double widest);
+  /// Encodes on until the knot is at goal time `until` or later, as next() would, or as far as it goes.
+  void commit(GoalTime until, double rate);
 
   /// A segment of waiting for `ticks` >= 1, to be sent next. Only before the first segment of the path.
   void wait(std::int64_t ticks);
@@ -61,7 +75,7 @@ class SegmentFeed {
   /// The segment with time 0, which ends the motion, has been sent too.
   bool all_sent() const { return terminated_; }
   /// Whether the segment that ends the motion has been given out.
-  bool ending() const { return terminated_ || (next_ && next_->segment.time == 0); }
+  bool ending() const { return terminated_ || (!encoded_.empty() && encoded_.back().segment.time == 0); }
   std::size_t sent() const { return sent_; }  ///< segments, those of waiting and the last included
   /// Whether a place of the queue is free although the drive may have played no more than `least_elapsed`
   /// seconds. The drive has not started yet when `started` is false: then nothing has left the queue.
@@ -86,10 +100,9 @@ class SegmentFeed {
   /// When `ticks_left` remain of a segment, of the one for which that comes nearest to `expected` seconds.
   std::optional<Instant> instant_of(std::int64_t ticks_left, double expected) const;
 
-  /// Where the segments given out so far lead: seconds of the drive's clock, and goal time. From there on the
-  /// path may still change.
+  /// The knot in seconds of the drive's clock, and in goal time.
   double knot_end() const;
-  GoalTime knot_goal_time() const;
+  GoalTime knot_goal_time() const { return knot().goal_time; }
   /// Goal time of any instant of the drive's motion so far.
   GoalTime goal_time_at(double drive_seconds) const;
   /// The one that is encoded now.
@@ -108,21 +121,10 @@ class SegmentFeed {
     ImsSegment segment;            ///< in the drive's numbers
     interpolation::ImsState from;  ///< where it begins
   };
-  /// The path and its encoder, which refers to it.
-  struct Source {
-    /// Takes copies; encodes on from `from`. Not copied itself, since `encoder` refers to `path`.
-    Source(const trajectory::Path& p, const Manner& manner, const encoding::ImsKnot& from);
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-    trajectory::Path path;           ///< rad or m over goal time
-    encoding::ImsEncoding encoding;  ///< with the bound that is in force
-    double horizon;                  ///< s
-    std::deque<BoundFrom> bounds;    ///< that are planned for later
-    encoding::ImsEncoder encoder;    ///< where the segments given out so far lead
-  };
-
+  std::int64_t knot_tick() const;
   void encode_as(const encoding::ImsEncoding& encoding);
   void take_bound();
+  std::optional<Refusal> encode_one(double rate);
   std::optional<Refusal> encode_next(double rate, Stretch& stretch);
   void take(std::unique_ptr<Source> source);
   std::size_t executing(double elapsed) const;
@@ -136,17 +138,15 @@ class SegmentFeed {
   static constexpr std::size_t kRecent = 64;
 
   std::unique_ptr<Source> source_;
-  std::unique_ptr<Source> way_on_;
-  std::vector<std::int64_t> way_on_ticks_;  ///< of its segments, at rate 1
-  double widest_ = 0.0;                     ///< counts, up to where the bound may be doubled
+  double widest_ = 0.0;        ///< counts, up to where the bound may be doubled
   std::int64_t shortest_ = 0;  ///< ticks, down to which a segment may be short where none else is found
   GoalTime start_goal_time_{0.0};
   std::int32_t start_counts_ = 0;
   std::int32_t final_counts_ = 0;
   std::size_t depth_ = 0;
   double tick_ = 0.0;
-  std::optional<Stretch> next_;
-  ImsSegment last_;
+  std::deque<Stretch> encoded_;    ///< the segments behind those sent
+  ImsSegment last_;                ///< encoded
   std::deque<Stretch> stretches_;  ///< of the segments sent, the last ones
   std::size_t sent_ = 0;
   std::int64_t end_tick_ = 0;
