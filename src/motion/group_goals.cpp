@@ -159,7 +159,8 @@ void Group::start_loading(GoalId id, const trajectory::Goal& goal, trajectory::G
 
 void Group::start_pending(HostTime now) {
   const PendingGoal goal = *std::exchange(pending_, std::nullopt);
-  const auto rules = rules_of_waiting(parameters_.rules, goal.goal, goal.sent_in_motion);
+  auto rules = rules_of_waiting(parameters_.rules, goal.goal, goal.sent_in_motion);
+  rules.keep_last_point = true;
   auto planned = plan(goal.goal, rules, rest_states(axes_), now);
   if (planned) {
     const std::string remark = fmt::format("{}", fmt::join(planned.value().warnings, " "));

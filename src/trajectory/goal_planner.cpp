@@ -66,7 +66,7 @@ class PathMaker {
   }
 
   void meet_later_by(GoalTime late) {
-    late_ = true;
+    selection_.late += late;
     selection_.skipped -= late;
   }
 
@@ -114,7 +114,8 @@ class PathMaker {
     result.given = given(point);
     result.state.position = point.positions[column] + start_.shift[joint];
     if (result.given != KnotData::Position) result.state.velocity = point.velocities[column];
-    if (late_ && index == selection_.points.front() && result.given == KnotData::Velocity) {
+    if (selection_.late.count() > 0.0 && index == selection_.points.front() &&
+        result.given == KnotData::Velocity) {
       result.given = KnotData::Acceleration;
       return result;
     }
@@ -228,15 +229,14 @@ class PathMaker {
   const std::vector<State>& present_;
   PointSelection& selection_;
   const GoalStart& start_;
-  bool late_ = false;
   std::vector<Knot> knots_;
   std::optional<GoalTime> lack_;
 };
 
-std::string late_text(const PointSelection& selection, GoalTime late) {
+std::string late_text(const PointSelection& selection) {
   return fmt::format(
       "The points are met {:.2f} s late: there was too little time to reach points[{}] within the limits.",
-      late.count(), selection.points.front());
+      selection.late.count(), selection.points.front());
 }
 
 /// The paths of all joints.
@@ -259,12 +259,13 @@ Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRule
   if (auto refusal = validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   const auto columns = joint_columns(goal.joint_names, rules.joints, rules.allow_partial_joints);
   if (!columns) return columns.error();
-  const auto future = drop_past_points(goal, now);
+  const auto future = drop_past_points(goal, now, rules.keep_last_point);
   if (!future) return future.error();
   if (!future.value().warning.empty()) warnings.push_back(future.value().warning);
   auto points = merge_near_points(goal, rules, future.value().first);
   if (!points) return points.error();
-  return PointSelection{columns.value(), std::move(points).value(), future.value().skipped};
+  return PointSelection{columns.value(), std::move(points).value(), future.value().skipped,
+                        future.value().late};
 }
 
 void warn_of_unused_accelerations(const Goal& goal, std::vector<std::string>& warnings) {
@@ -292,7 +293,6 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   if (!start.value().warning.empty()) plan.warnings.push_back(start.value().warning);
   warn_of_unused_accelerations(goal, plan.warnings);
 
-  const GoalTime due = selection.skipped;
   PathMaker maker(goal, rules, present, selection, start.value());
   plan.bridge = start.value().bridge;
   if (plan.bridge && rules.least_late.count() > 0.0) maker.meet_later_by(rules.least_late);
@@ -302,7 +302,7 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   if (!paths) return paths.error();
   plan.paths = std::move(paths).value();
   for (std::size_t joint = 0; joint < rules.joints.size(); ++joint) plan.named.push_back(maker.names(joint));
-  if (selection.skipped < due) plan.warnings.push_back(late_text(selection, due - selection.skipped));
+  if (selection.late.count() > 0.0) plan.warnings.push_back(late_text(selection));
   plan.lead_in = start.value().lead_in;
   plan.duration = maker.duration();
   plan.skipped = selection.skipped;

@@ -60,6 +60,17 @@ TEST_P(WaitingGoal, OfAStampIsMetLaterThanItIsDue) {
   expect_all_at(kBack[0]);
 }
 
+// All of it goes by: it was accepted, and where it leads to is known.
+TEST_P(WaitingGoal, OfAStampThatIsOverIsStillBroughtToItsEnd) {
+  move(1.0);
+  const auto result = result_of_one_sent_in_braking(
+      make_goal({0.01, 0.05}, {kBack, kBack}, {std::vector<double>(6, 0.0), std::vector<double>(6, 0.0)}),
+      true);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  EXPECT_NE(result.text.find(" s late"), std::string::npos) << result.text;
+  expect_all_at(kBack[0]);
+}
+
 // Who plans while the arm brakes cannot know where it will rest.
 TEST_P(WaitingGoal, SentWhileTheArmBrakesGoesWithoutItsFirstPoint) {
   move(0.8);

@@ -113,6 +113,26 @@ TEST(MovingStart, JoinsLateByWhatTheWayLacks) {
   EXPECT_LT(late, cases);
 }
 
+// Accepted in time, and over when the joints have come to rest: the end is met from there, within the limits.
+TEST(MovingStart, OfAGoalThatIsOverMeetsItsLastPointLate) {
+  GoalRules rules = rules_for(1, limits_of(1.0, 2.0));
+  Goal goal;
+  goal.joint_names = rules.joints;
+  goal.points = {point(0.5, {1}), point(1, {3})};
+  goal.start = host_time(998);
+  rules.join_late = true;
+  EXPECT_FALSE(plan_goal(goal, rules, {State{2.0, 0.0, 0.0}}, kNow));
+  rules.keep_last_point = true;
+  const auto planned = plan_goal(goal, rules, {State{2.0, 0.0, 0.0}}, kNow);
+  ASSERT_TRUE(planned) << planned.error().text;
+  const Path& path = planned.value().paths[0];
+  EXPECT_FALSE(find_limit_violation(path, rules.limits[0]));
+  EXPECT_NEAR(path.sample(GoalTime{0.0}).position, 2.0, 1e-12);
+  EXPECT_NEAR(path.final_position(), 3.0, 1e-12);
+  EXPECT_NEAR(path.sample(GoalTime{1.0} - planned.value().skipped).position, 3.0, 1e-12);
+  EXPECT_NE(planned.value().warnings.back().find(" s late"), std::string::npos);
+}
+
 // What is behind the first point is not a matter of when it is met.
 TEST(MovingStart, IsNotMadeLateForWhatComesBehindIt) {
   GoalRules rules = rules_for(1, limits_of(1.0, 2.0));
