@@ -107,6 +107,15 @@ class PathMaker {
   }
 
   Knot knot(std::size_t joint, std::size_t index) const {
+    Knot result = knot_of_point(joint, index);
+    if (index != selection_.points.front()) return result;
+    if (result.given == KnotData::Position) keep_own_velocity(joint, result);
+    if (selection_.late.count() > 0.0 && result.given == KnotData::Velocity)
+      result.given = KnotData::Acceleration;
+    return result;
+  }
+
+  Knot knot_of_point(std::size_t joint, std::size_t index) const {
     const Waypoint& point = goal_.points[index];
     const std::size_t column = selection_.columns[joint];
     Knot result;
@@ -114,13 +123,19 @@ class PathMaker {
     result.given = given(point);
     result.state.position = point.positions[column] + start_.shift[joint];
     if (result.given != KnotData::Position) result.state.velocity = point.velocities[column];
-    if (selection_.late.count() > 0.0 && index == selection_.points.front() &&
-        result.given == KnotData::Velocity) {
-      result.given = KnotData::Acceleration;
-      return result;
-    }
     if (result.given == KnotData::Acceleration) result.state.acceleration = point.accelerations[column];
     return result;
+  }
+
+  /// Through the first point left the path goes as fast as the goal's whole curve does, those points included
+  /// that are left out: else what comes behind might ask for more than it does there.
+  void keep_own_velocity(std::size_t joint, Knot& first) const {
+    const std::size_t index = selection_.points.front();
+    if (index == 0 || selection_.points.size() == 1) return;
+    const Knot before = knot_of_point(joint, index - 1);
+    if (first.time - before.time < kMinimumStep) return;
+    first.state.velocity = velocity_between(before, first, knot_of_point(joint, selection_.points[1]));
+    first.given = KnotData::Velocity;
   }
 
   static void bring_to_rest(JointUnit unit, Knot& knot) {
