@@ -39,6 +39,12 @@ AxisState AxisBase::state() const {
   return AxisState::Fault;
 }
 
+bool AxisBase::is_online() const {
+  const bool on_the_way = stage_ == Stage::FaultStopping || stage_ == Stage::SwitchingOff;
+  const Stage stage = on_the_way ? after_stop_ : stage_;
+  return stage != Stage::Offline && stage != Stage::Probing;
+}
+
 void AxisBase::poll(HostTime now) {
   listen(now);
   if (feedback().time != reported_) {
@@ -113,8 +119,6 @@ void AxisBase::poll_probing(HostTime now) {
 std::string AxisBase::who() const { return fmt::format("Joint {} ({})", settings_.joint, device_name()); }
 
 void AxisBase::fail(const std::string& reason, HostTime now) { end_in(Stage::Fault, reason, now); }
-
-void AxisBase::lose(const std::string& reason, HostTime now) { end_in(Stage::Offline, reason, now); }
 
 void AxisBase::end_in(Stage stage, const std::string& reason, HostTime now) {
   if (stage_ == Stage::FaultStopping || stage_ == Stage::SwitchingOff) {

@@ -190,7 +190,8 @@ void Group::start_loading(GoalId id, Planning& planning, HostTime now) {
 
 PlanningPtr Group::take_planning(HostTime now) {
   if (!pending_ || state_ != GroupState::Idle || pending_->planning) return nullptr;
-  const auto rules = rules_of_waiting(parameters_.rules, *pending_->goal, pending_->sent_in_motion);
+  auto rules = rules_of_waiting(parameters_.rules, *pending_->goal, pending_->sent_in_motion);
+  rules.keep_last_point = true;
   pending_->planning = planning_from_rest(axes_, pending_->goal, rules, rest_states(axes_), now);
   pending_->planning->premises = premises();
   return pending_->planning;

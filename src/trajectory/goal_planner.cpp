@@ -66,7 +66,7 @@ class PathMaker {
   }
 
   void meet_later_by(GoalTime late) {
-    late_ = true;
+    selection_.late += late;
     selection_.skipped -= late;
   }
 
@@ -107,6 +107,15 @@ class PathMaker {
   }
 
   Knot knot(std::size_t joint, std::size_t index) const {
+    Knot result = knot_of_point(joint, index);
+    if (index != selection_.points.front()) return result;
+    if (result.given == KnotData::Position) keep_own_velocity(joint, result);
+    if (selection_.late.count() > 0.0 && result.given == KnotData::Velocity)
+      result.given = KnotData::Acceleration;
+    return result;
+  }
+
+  Knot knot_of_point(std::size_t joint, std::size_t index) const {
     const Waypoint& point = goal_.points[index];
     const std::size_t column = selection_.columns[joint];
     Knot result;
@@ -114,12 +123,19 @@ class PathMaker {
     result.given = given(point);
     result.state.position = point.positions[column] + start_.shift[joint];
     if (result.given != KnotData::Position) result.state.velocity = point.velocities[column];
-    if (late_ && index == selection_.points.front() && result.given == KnotData::Velocity) {
-      result.given = KnotData::Acceleration;
-      return result;
-    }
     if (result.given == KnotData::Acceleration) result.state.acceleration = point.accelerations[column];
     return result;
+  }
+
+  /// Through the first point left the path goes as fast as the goal's whole curve does, those points included
+  /// that are left out: else what comes behind might ask for more than it does there.
+  void keep_own_velocity(std::size_t joint, Knot& first) const {
+    const std::size_t index = selection_.points.front();
+    if (index == 0 || selection_.points.size() == 1) return;
+    const Knot before = knot_of_point(joint, index - 1);
+    if (first.time - before.time < kMinimumStep) return;
+    first.state.velocity = velocity_between(before, first, knot_of_point(joint, selection_.points[1]));
+    first.given = KnotData::Velocity;
   }
 
   static void bring_to_rest(JointUnit unit, Knot& knot) {
@@ -228,15 +244,14 @@ class PathMaker {
   const std::vector<State>& present_;
   PointSelection& selection_;
   const GoalStart& start_;
-  bool late_ = false;
   std::vector<Knot> knots_;
   std::optional<GoalTime> lack_;
 };
 
-std::string late_text(const PointSelection& selection, GoalTime late) {
+std::string late_text(const PointSelection& selection) {
   return fmt::format(
       "The points are met {:.2f} s late: there was too little time to reach points[{}] within the limits.",
-      late.count(), selection.points.front());
+      selection.late.count(), selection.points.front());
 }
 
 /// The paths of all joints.
@@ -259,12 +274,13 @@ Expected<PointSelection, Refusal> select_points(const Goal& goal, const GoalRule
   if (auto refusal = validate_stamp(goal, rules.max_start_ahead, now)) return *refusal;
   const auto columns = joint_columns(goal.joint_names, rules.joints, rules.allow_partial_joints);
   if (!columns) return columns.error();
-  const auto future = drop_past_points(goal, now);
+  const auto future = drop_past_points(goal, now, rules.keep_last_point);
   if (!future) return future.error();
   if (!future.value().warning.empty()) warnings.push_back(future.value().warning);
   auto points = merge_near_points(goal, rules, future.value().first);
   if (!points) return points.error();
-  return PointSelection{columns.value(), std::move(points).value(), future.value().skipped};
+  return PointSelection{columns.value(), std::move(points).value(), future.value().skipped,
+                        future.value().late};
 }
 
 void warn_of_unused_accelerations(const Goal& goal, std::vector<std::string>& warnings) {
@@ -292,7 +308,6 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   if (!start.value().warning.empty()) plan.warnings.push_back(start.value().warning);
   warn_of_unused_accelerations(goal, plan.warnings);
 
-  const GoalTime due = selection.skipped;
   PathMaker maker(goal, rules, present, selection, start.value());
   plan.bridge = start.value().bridge;
   if (plan.bridge && rules.least_late.count() > 0.0) maker.meet_later_by(rules.least_late);
@@ -302,7 +317,7 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   if (!paths) return paths.error();
   plan.paths = std::move(paths).value();
   for (std::size_t joint = 0; joint < rules.joints.size(); ++joint) plan.named.push_back(maker.names(joint));
-  if (selection.skipped < due) plan.warnings.push_back(late_text(selection, due - selection.skipped));
+  if (selection.late.count() > 0.0) plan.warnings.push_back(late_text(selection));
   plan.lead_in = start.value().lead_in;
   plan.duration = maker.duration();
   plan.skipped = selection.skipped;

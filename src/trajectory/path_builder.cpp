@@ -20,10 +20,7 @@ double velocity_at(const std::vector<Knot>& knots, std::size_t i) {
   const Knot& knot = knots[i];
   if (knot.given != KnotData::Position) return knot.state.velocity;
   if (i == 0 || i + 1 == knots.size()) return 0.0;
-  const Knot& before = knots[i - 1];
-  const Knot& after = knots[i + 1];
-  return shape_preserving_slope(length(before, knot), slope(before, knot), length(knot, after),
-                                slope(knot, after));
+  return velocity_between(knots[i - 1], knot, knots[i + 1]);
 }
 
 Polynomial segment(const Knot& from, const State& start, const Knot& to, const State& end) {
@@ -33,6 +30,11 @@ Polynomial segment(const Knot& from, const State& start, const Knot& to, const S
 }
 
 }  // namespace
+
+double velocity_between(const Knot& before, const Knot& knot, const Knot& after) {
+  return shape_preserving_slope(length(before, knot), slope(before, knot), length(knot, after),
+                                slope(knot, after));
+}
 
 void append_pieces(const std::vector<Knot>& knots, std::vector<Piece>& pieces) {
   if (knots.size() < 2) throw std::invalid_argument("path: fewer than two knots");

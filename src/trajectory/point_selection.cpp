@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "interpolated_motion_driver/trajectory/goal_rules.h"
+#include "interpolated_motion_driver/trajectory/rest_to_rest.h"
 #include "interpolated_motion_driver/units/time_span.h"
 
 namespace interpolated_motion::trajectory {
@@ -65,7 +66,13 @@ std::string dropped_warning(const Goal& goal, const FuturePoints& kept) {
       "point will be reached in {:.3f}s. The stamp of the goal is {:.6f} s in the past; the motion "
       "goes from where the joints are to that point.",
       kept.first, goal.points.size(), (goal.points[kept.first].time - kept.skipped).count(),
-      kept.skipped.count());
+      (kept.skipped + kept.late).count());
+}
+
+void keep_last_point(const Goal& goal, FuturePoints& kept) {
+  kept.first = goal.points.size() - 1;
+  kept.late = kept.skipped + kShortestMotion - goal.points.back().time;
+  kept.skipped -= kept.late;
 }
 
 }  // namespace
@@ -78,18 +85,23 @@ Refusal all_points_past(std::size_t count, GoalTime late, const std::string& sen
               count, late.count(), sentence)};
 }
 
-Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now) {
+Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now, bool keep_last) {
   FuturePoints kept;
   if (!goal.start || *goal.start >= now) return kept;
   kept.skipped = GoalTime(seconds(span(*goal.start, now)));
-  const auto in_past = [&](const Waypoint& point) { return point.time <= kept.skipped; };
+  const GoalTime ahead = keep_last ? kMinimumStep : GoalTime{0.0};
+  const auto in_past = [&](const Waypoint& point) { return point.time - kept.skipped <= ahead; };
   const auto first = std::partition_point(goal.points.begin(), goal.points.end(), in_past);
   if (first == goal.points.end()) {
-    return all_points_past(goal.points.size(), kept.skipped - goal.points.back().time,
-                           "Send the goal earlier, or with stamp 0 to start at once; if it was sent in time, "
-                           "synchronise the clocks.");
+    if (!keep_last) {
+      return all_points_past(goal.points.size(), kept.skipped - goal.points.back().time,
+                             "Send the goal earlier, or with stamp 0 to start at once; if it was sent in "
+                             "time, synchronise the clocks.");
+    }
+    keep_last_point(goal, kept);
+  } else {
+    kept.first = static_cast<std::size_t>(first - goal.points.begin());
   }
-  kept.first = static_cast<std::size_t>(first - goal.points.begin());
   if (kept.first > 0) kept.warning = dropped_warning(goal, kept);
   return kept;
 }

@@ -91,6 +91,23 @@ TEST_P(PowerOff, AtRestToo) {
   expect_all_off();
 }
 
+// A drive that has been lost may have restarted, somewhere else by its own counter: it does not count as
+// there for being told to switch off.
+TEST_P(PowerOff, LeavesALostDriveOffline) {
+  inject(GetParam().faults);
+  scenario.run(4.0);
+  inject(GetParam().ends);
+  scenario.run(1.5);
+  const bool lost = !scenario.snapshot().joints[1].online;
+  const auto request = scenario.driver().enable(false, scenario.now());
+  for (int i = 0; lost && i < 400; ++i) {
+    scenario.run(0.005);
+    ASSERT_FALSE(scenario.snapshot().joints[1].online) << scenario.snapshot().joints[1].state;
+  }
+  scenario.result_of_request(request, 5.0);
+  expect_all_off();
+}
+
 // Asked while the drive is out of reach, the request is answered, and says what could not be done; asked
 // again, it is done.
 TEST_P(PowerOff, IsTriedAgainWithTheNextRequest) {

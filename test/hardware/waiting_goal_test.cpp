@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,10 @@ class WaitingGoal : public ::testing::TestWithParam<KindOfArm> {
     scenario_.run(for_seconds);
   }
 
-  /// Sends `goal`, of now where it is `stamped`, while the arm brakes.
-  motion::GoalResult result_of_one_sent_in_braking(trajectory::Goal goal, bool stamped = false) {
+  /// Sends `goal`, with a stamp that is `age` s old or without one, while the arm brakes.
+  motion::GoalResult result_of_one_sent_in_braking(trajectory::Goal goal, std::optional<double> age = {}) {
     scenario_.driver().cancel(first_, scenario_.now());
-    if (stamped) goal.start = scenario_.now();
+    if (age) goal.start = scenario_.now() - host_duration(*age);
     const auto accepted = scenario_.submit(goal);
     if (!accepted) return {0, GoalOutcome::Aborted, accepted.error().code, accepted.error().text};
     return scenario_.result_of(accepted.value().id, 20.0);
@@ -54,9 +55,38 @@ class WaitingGoal : public ::testing::TestWithParam<KindOfArm> {
 // The time of its first point goes by while the arm brakes: there is no sense in giving up for that.
 TEST_P(WaitingGoal, OfAStampIsMetLaterThanItIsDue) {
   move(1.0);
-  const auto result = result_of_one_sent_in_braking(there_and_back(0.2, 0.4), true);
+  const auto result = result_of_one_sent_in_braking(there_and_back(0.2, 0.4), 0.0);
   EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
   EXPECT_NE(result.text.find(" s late"), std::string::npos) << result.text;
+  expect_all_at(kBack[0]);
+}
+
+// All of it goes by: it was accepted, and where it leads to is known.
+TEST_P(WaitingGoal, OfAStampThatIsOverIsStillBroughtToItsEnd) {
+  move(1.0);
+  const auto result = result_of_one_sent_in_braking(
+      make_goal({0.01, 0.05}, {kBack, kBack}, {std::vector<double>(6, 0.0), std::vector<double>(6, 0.0)}),
+      0.0);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
+  EXPECT_NE(result.text.find(" s late"), std::string::npos) << result.text;
+  expect_all_at(kBack[0]);
+}
+
+// Points with positions only, close to each other: what is left of the curve, half of which is past, is gone
+// through as with the points that are left out. The arm comes to it from the other side.
+TEST_P(WaitingGoal, OfAStampIsJoinedInTheMiddleOfItsCurve) {
+  move(1.0);
+  constexpr int kPoints = 60;
+  std::vector<double> times;
+  std::vector<std::vector<double>> positions;
+  for (int i = 1; i <= kPoints; ++i) {
+    const double part = static_cast<double>(i) / kPoints;
+    const double to_go = 1.0 - part * part * part * (10.0 - 15.0 * part + 6.0 * part * part);
+    times.push_back(1.2 * part);
+    positions.emplace_back(6, kBack[0] + 0.35 * to_go);
+  }
+  const auto result = result_of_one_sent_in_braking(make_goal(times, positions), 0.55);
+  EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
   expect_all_at(kBack[0]);
 }
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,57 @@ TEST(MovingStart, JoinsLateByWhatTheWayLacks) {
   }
   EXPECT_GT(late, cases / 4);
   EXPECT_LT(late, cases);
+}
+
+// Accepted in time, and over when the joints have come to rest: the end is met from there, within the limits.
+TEST(MovingStart, OfAGoalThatIsOverMeetsItsLastPointLate) {
+  GoalRules rules = rules_for(1, limits_of(1.0, 2.0));
+  Goal goal;
+  goal.joint_names = rules.joints;
+  goal.points = {point(0.5, {1}), point(1, {3})};
+  goal.start = host_time(998);
+  rules.join_late = true;
+  EXPECT_FALSE(plan_goal(goal, rules, {State{2.0, 0.0, 0.0}}, kNow));
+  rules.keep_last_point = true;
+  const auto planned = plan_goal(goal, rules, {State{2.0, 0.0, 0.0}}, kNow);
+  ASSERT_TRUE(planned) << planned.error().text;
+  const Path& path = planned.value().paths[0];
+  EXPECT_FALSE(find_limit_violation(path, rules.limits[0]));
+  EXPECT_NEAR(path.sample(GoalTime{0.0}).position, 2.0, 1e-12);
+  EXPECT_NEAR(path.final_position(), 3.0, 1e-12);
+  EXPECT_NEAR(path.sample(GoalTime{1.0} - planned.value().skipped).position, 3.0, 1e-12);
+  EXPECT_NE(planned.value().warnings.back().find(" s late"), std::string::npos);
+}
+
+// Points of a smooth curve, positions only, that are followed within the limits from the first one on. Those
+// of the past are left out; what is left is the same curve, however the joint comes to it.
+TEST(MovingStart, KeepsTheCurveThroughThePointsThatAreLeft) {
+  GoalRules rules = rules_for(1, limits_of(2.0, 6.0));
+  Goal goal;
+  goal.joint_names = rules.joints;
+  constexpr int kPoints = 25;
+  constexpr double kPi = 3.14159265358979;
+  for (int i = 0; i <= kPoints; ++i)
+    goal.points.push_back(point(1.5 * i / kPoints, {0.5 - 0.5 * std::cos(kPi * i / kPoints)}));
+  const auto whole = plan_goal(goal, rules, {State{}}, kNow);
+  ASSERT_TRUE(whole) << whole.error().text;
+  rules.join_late = true;
+  for (const double age : {0.1, 0.5, 0.9, 1.3}) {
+    goal.start = host_time(1000.0 - age);
+    for (const State& present : {State{0.9, 0.0, 0.0}, State{-0.3, 0.0, 0.0}, State{0.5, -0.5, 0.0}}) {
+      SCOPED_TRACE(::testing::Message() << age << " s late, from " << present.position);
+      const auto left = plan_goal(goal, rules, {present}, kNow);
+      ASSERT_TRUE(left) << left.error().text;
+      const Path& path = left.value().paths[0];
+      EXPECT_FALSE(find_limit_violation(path, rules.limits[0]));
+      for (double time = age + 1.5 / kPoints; time <= 1.5; time += 0.01) {
+        const State wanted = whole.value().paths[0].sample(GoalTime{time});
+        const State state = path.sample(GoalTime{time} - left.value().skipped);
+        ASSERT_NEAR(state.position, wanted.position, 1e-9) << time;
+        ASSERT_NEAR(state.velocity, wanted.velocity, 1e-9) << time;
+      }
+    }
+  }
 }
 
 // What is behind the first point is not a matter of when it is met.

@@ -66,6 +66,27 @@ TEST(DropPastPoints, RefusesAGoalThatIsOver) {
       << refusal.text;
 }
 
+// Whoever has accepted it keeps its end, and says how late it is met.
+TEST(DropPastPoints, KeepsTheLastOfAGoalThatIsOverWhereThatIsWanted) {
+  Goal goal = goal_at({0, 1, 2}, {0, 1, 2});
+  goal.start = host_time(97.5);
+  const auto kept = drop_past_points(goal, host_time(100), true).value();
+  EXPECT_EQ(kept.first, 2u);
+  EXPECT_GT(2.0 - kept.skipped.count(), kMinimumStep.count());  // later than now
+  EXPECT_DOUBLE_EQ(kept.skipped.count() + kept.late.count(), 2.5);
+  EXPECT_NE(kept.warning.find("Dropping first 2 trajectory point(s) out of 3"), std::string::npos);
+}
+
+// Nothing can be done in the time that is left: it is as good as over.
+TEST(DropPastPoints, KeepsTheLastThatIsDueAtOnceWhereThatIsWanted) {
+  Goal goal = goal_at({0, 2}, {0, 2});
+  goal.start = host_time(98) + std::chrono::microseconds(50);
+  const auto kept = drop_past_points(goal, host_time(100), true).value();
+  EXPECT_EQ(kept.first, 1u);
+  EXPECT_GT(kept.late.count(), 0.0);
+  EXPECT_EQ(drop_past_points(goal, host_time(100)).value().late.count(), 0.0);
+}
+
 TEST(MergeNearPoints, KeepsWhatIsFarEnoughApart) {
   EXPECT_EQ(merge_near_points(goal_at({0, 1, 1.0001, 2}, {0, 1, 1.5, 2}), revolute(), 0).value(),
             (Indices{0, 1, 2, 3}));

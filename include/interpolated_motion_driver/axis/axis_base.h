@@ -114,17 +114,19 @@ class AxisBase : public PowerStage {
   // For derived classes.
 
   Stage stage() const { return stage_; }
+  /// The drive has answered and has not been lost since; one that is told to stop or to switch off after it
+  /// has been lost is not there: it may have restarted, and what is known of it is old.
+  bool is_online() const;
   void enter(Stage stage, HostTime now);
   const StageTime& time() const { return time_; }
-  /// As fail(), of a drive that is not heard any more.
-  void lose(const std::string& reason, HostTime now);
+  /// As fail(), which ends in Stage::Fault; of a drive that is not heard any more in Stage::Offline.
+  void end_in(Stage stage, const std::string& reason, HostTime now);
 
  private:
   void run_stage(HostTime now);
   void poll_probing(HostTime now);
   void poll_fault_stopping(HostTime now);
   void poll_switching_off(HostTime now);
-  void end_in(Stage stage, const std::string& reason, HostTime now);
 
   const Settings settings_;
   Player* player_ = nullptr;

@@ -48,7 +48,8 @@ struct GoalPlan {
 ///
 /// A way to the first point for which there is too little time, from rest or in motion, is refused with the
 /// least time that it would take; with `GoalRules::join_late` it gets that time, all points are met so much
-/// later, and a warning says so.
+/// later, and a warning says so. So is the last point with `GoalRules::keep_last_point`, where the time of
+/// all points has gone by.
 ///
 /// Always:
 /// - Positions of a continuous joint are shifted, all alike, by the multiple of 2 pi that brings the first

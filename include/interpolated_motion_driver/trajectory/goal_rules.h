@@ -46,6 +46,9 @@ struct GoalRules {
   /// The joints were braking when the goal was sent, and have come to rest since. A first point at time 0 out
   /// of tolerance is then left out, as for joints in motion.
   bool sent_in_motion = false;
+  /// The goal was accepted when it could still be met, and its time has gone by since, in waiting for rest:
+  /// its last point at least is met, however late.
+  bool keep_last_point = false;
   /// A goal whose stamp is further ahead is refused: no planner waits so long, but a clock that is wrong may
   /// say so.
   GoalTime max_start_ahead{3600.0};

@@ -25,6 +25,7 @@ struct PointSelection {
   std::vector<std::size_t> columns;  ///< of every joint in the points, or `kNotNamed`
   std::vector<std::size_t> points;   ///< indices of the points used, at least one
   GoalTime skipped{0.0};             ///< time of the plan = time of the goal - `skipped`
+  GoalTime late{0.0};                ///< by which the points are met later than the goal asks for
 };
 
 /// How a goal gets going from the present states.

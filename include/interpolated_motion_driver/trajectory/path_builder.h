@@ -26,6 +26,9 @@ struct Knot {
 /// std::invalid_argument for fewer than two knots or times that do not increase.
 Path build_path(const std::vector<Knot>& knots);
 
+/// The velocity of such a path at `knot` between two others, where it is not given: rad/s or m/s.
+double velocity_between(const Knot& before, const Knot& knot, const Knot& after);
+
 /// The pieces of `build_path`, appended to `pieces`.
 void append_pieces(const std::vector<Knot>& knots, std::vector<Piece>& pieces);
 

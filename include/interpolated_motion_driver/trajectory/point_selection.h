@@ -15,14 +15,16 @@ namespace interpolated_motion::trajectory {
 /// What is left of a goal after the points in the past were dropped.
 struct FuturePoints {
   std::size_t first = 0;  ///< index of the first point that is kept
-  GoalTime skipped{0.0};  ///< how long ago the goal's stamp was, 0 without stamp or with one to come
+  GoalTime skipped{0.0};  ///< time of the plan = time of the goal - `skipped`
+  GoalTime late{0.0};     ///< by which the points are met later than the goal's stamp says
   std::string warning;    ///< joint_trajectory_controller's words if points were dropped, else empty
 };
 
 /// Drops the points of a goal with a stamp that lie at or before `now`, as joint_trajectory_controller does.
-/// With no stamp nothing is dropped. `goal` must have points with increasing times. Refused (InvalidGoal) if
-/// no point is left.
-Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now);
+/// `skipped` is how long ago the stamp was then. With no stamp, or one to come, nothing is dropped. `goal`
+/// must have points with increasing times. Where no point is left, the goal is refused (InvalidGoal); with
+/// `keep_last` its last point is kept instead, and met late, `kShortestMotion` from now.
+Expected<FuturePoints, Refusal> drop_past_points(const Goal& goal, HostTime now, bool keep_last = false);
 
 /// The refusal of joint_trajectory_controller for a goal none of whose `count` points can be reached any
 /// more, the last `late` in the past, and `sentence` after it.

@@ -283,10 +283,10 @@ void Cia402PowerStage::take(NodeEvent event, HostTime now) {
   if (event == NodeEvent::Restarted && stage() == Stage::Fault && watch_.to_restart()) return;
   std::string why = watch_.text(event, device_.lost_by_restart());
   if (event == NodeEvent::NotOperational && errors_.code() != 0) why += ", and reports " + errors_.history();
-  if (event == NodeEvent::Silent) return lose(why, now);
+  if (event == NodeEvent::Silent) return end_in(Stage::Offline, why, now);
   if (event != NodeEvent::Restarted) return stage() == Stage::Fault ? void() : fail(why, now);
   if (stage() == Stage::FaultStopping || stage() == Stage::SwitchingOff) drop_work();
-  lose(why, now);
+  end_in(Stage::Offline, why, now);
 }
 
 // In motion the player watches more closely.
@@ -385,7 +385,7 @@ std::string Cia402PowerStage::unseen_text() const {
 }
 
 void Cia402PowerStage::drive_status(AxisStatus& out) const {
-  out.online = stage() != Stage::Offline && stage() != Stage::Probing;
+  out.online = is_online();
   out.state = std::string(cia402::to_text(report_.state()));
   out.statusword = report_.statusword.raw;
   out.mode = report_.mode;

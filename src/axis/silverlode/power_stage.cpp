@@ -251,7 +251,7 @@ std::string SilverlodePowerStage::unseen_text() const {
 
 void SilverlodePowerStage::drive_status(AxisStatus& out) const {
   const bool faulted = status_.polling.fault();
-  out.online = stage() != Stage::Offline && stage() != Stage::Probing;
+  out.online = is_online();
   out.state = state_text();
   out.statusword = status_.polling.raw;
   out.mode = 0;
@@ -261,8 +261,8 @@ void SilverlodePowerStage::drive_status(AxisStatus& out) const {
 
 std::string SilverlodePowerStage::state_text() const {
   if (stage() == Stage::FaultStopping) return "Stopping with a fault";
+  if (!is_online()) return "Offline";
   if (stage() == Stage::Fault || stage() == Stage::SwitchingOff || status_.polling.fault()) return "Fault";
-  if (stage() == Stage::Offline || stage() == Stage::Probing) return "Offline";
   if (player_->interpolates()) return "Interpolated motion";
   return enabled() ? "Driver enabled" : "Driver disabled";
 }

@@ -108,9 +108,11 @@ bool plan_landing(const ImsRules& rules, std::int64_t ticks_to_end, const ImsSta
   if (!(needed < static_cast<double>(rules.max_step))) return false;
   std::int64_t step = std::max<std::int64_t>(1, static_cast<std::int64_t>(needed));
   while (interpolation::stopping_sum(speed, step) - speed > left) ++step;
-  const std::int64_t braking = (speed + step - 1) / step;
-  if (braking + kLandingMargin > rules.max_ticks) return false;
-  move = {landing_ticks(rules, braking, ticks_to_end), from.velocity, step, true, target};
+  // Where a unit a tick is more than it takes, the drive holds its velocity first.
+  const std::int64_t held = (left - (interpolation::stopping_sum(speed, step) - speed)) / speed;
+  const std::int64_t needed_ticks = held + (speed + step - 1) / step;
+  if (needed_ticks + kLandingMargin > rules.max_ticks) return false;
+  move = {landing_ticks(rules, needed_ticks, ticks_to_end), from.velocity, step, true, target};
   return true;
 }
 

@@ -216,12 +216,8 @@ void ImsSearch::offer_landing(const ImsCandidate& from, std::size_t index, doubl
 
 /// The segment that corrects a rest next to the final position when the path has come to its end.
 void ImsSearch::offer_settling(const ImsCandidate& from, std::size_t index, double bound) {
-  const double off = interpolation::ims_counts(rules_.scale, from.state) - static_cast<double>(target_);
-  if (from.state.velocity != 0 || from.state.sum == target_sum_ || !(std::abs(off) <= 2 * rules_.bound))
-    return;
-  if (!(std::abs(path_at(from.tick) - static_cast<double>(target_)) <= bound)) return;
   ImsCandidate candidate;
-  candidate.move = plan_settling(rules_, samples_.end() - from.tick, from.state, target_);
+  if (!may_settle(from.state, from.tick, bound, candidate.move)) return;
   candidate.tick = from.tick + candidate.move.ticks;
   candidate.state = {target_sum_, 0};
   candidate.parent = index;
@@ -263,11 +259,9 @@ void ImsSearch::offer(const ImsCandidate& candidate, double bound) {
   if (offered_ == kMaxOffers) return;
   ImsCandidate& kept = offers_[offered_];
   kept = candidate;
-  ImsMove landing;
   if (finished(candidate)) {
     kept.reach = kDone;
-  } else if (may_land(candidate.state, candidate.tick, bound, landing) &&
-             candidate.tick + landing.ticks >= samples_.end()) {
+  } else if (may_end(candidate, bound)) {
     kept.reach = kLands;
   } else {
     onward_.open(rules_, samples_, bound, candidate.tick, candidate.state, ticks_to_look(candidate.tick));
@@ -278,6 +272,25 @@ void ImsSearch::offer(const ImsCandidate& candidate, double bound) {
   const bool holds = candidate.move.step == 0;  // preferred to a ramp that reaches no farther
   kept.misfit = holds ? 0.0 : std::abs(position - path_at(candidate.tick));
   ++offered_;
+}
+
+/// Whether one more segment is enough: a landing, or, for a drive that has been brought to rest after the
+/// path's end, a settling. Without the latter one that creeps on within the bound would seem as good.
+bool ImsSearch::may_end(const ImsCandidate& candidate, double bound) {
+  ImsMove last;
+  if (may_land(candidate.state, candidate.tick, bound, last))
+    return candidate.tick + last.ticks >= samples_.end();
+  return candidate.tick >= samples_.end() && may_settle(candidate.state, candidate.tick, bound, last);
+}
+
+/// Whether the drive rests so near to the final position that one move leads there, by the path's position.
+bool ImsSearch::may_settle(const ImsState& state, std::int64_t tick, double bound, ImsMove& move) {
+  const double target = static_cast<double>(target_);
+  const double off = interpolation::ims_counts(rules_.scale, state) - target;
+  if (state.velocity != 0 || state.sum == target_sum_ || !(std::abs(off) <= 2 * rules_.bound)) return false;
+  if (!(std::abs(path_at(tick) - target) <= bound)) return false;
+  move = plan_settling(rules_, samples_.end() - tick, state, target_);
+  return true;
 }
 
 /// Whether the drive can brake onto the final position from here, by a few ticks of the path.

@@ -89,8 +89,10 @@ void DesiredIsSmooth::look(const Look& look) {
     fail(fmt::format("{}: the desired position jumps by {:.4f} rad as the group goes from {} to {}",
                      joint.label(), jump, motion::to_string(state_), motion::to_string(snapshot.state)));
   }
-  // An order may be carried out before the first reports are read that have come meanwhile.
-  was_away_ = was_away_ && is_as_before(snapshot);
+  // An order may be carried out before the first reports are read that have come meanwhile: then another
+  // state is published, and of the old reports what belongs to it.
+  const bool has_read = look.now > ledger().last_absence();
+  was_away_ = was_away_ && (!has_read || is_as_before(snapshot));
   if (!was_away_) time_ = look.now;
   desired_.resize(snapshot.joints.size());
   for (std::size_t i = 0; i < desired_.size(); ++i) desired_[i] = snapshot.joints[i].desired.position;

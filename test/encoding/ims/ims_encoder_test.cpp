@@ -78,6 +78,47 @@ TEST(ImsEncoder, MotionSmallerThanTheBoundEndsOnTheCount) {
   expect_executed(path, ims_encoding(), stream.value());
 }
 
+constexpr double kLongest = 0.25;  ///< s, of a segment
+
+/// How long after the end of a path of rest (0.3 s, at 3183.0989 counts) a drive is at rest that is next to
+/// it at `begin` s and moves at `counts_per_second`.
+double rest_after_end(std::int32_t at, double counts_per_second, double begin) {
+  constexpr double kEnd = 0.3;  // s
+  const auto path = path_through({0, kEnd}, {{0.1, 0, 0}, {0.1, 0, 0}}, false);
+  ImsEncoding encoding = ims_encoding();
+  const double tick = encoding.scale.tick;
+  encoding.max_segment_ticks = std::llround(kLongest / tick);
+  ImsKnot knot{std::llround(begin / tick), GoalTime(begin), interpolation::ims_at_rest(encoding.law(), at)};
+  knot.state.velocity = std::llround(counts_per_second * tick / encoding.law().counts_per_unit());
+  ImsEncoder encoder(path, encoding, knot);
+  ImsSegment segment;
+  ImsCertificate certificate;
+  for (int segments = 0; !encoder.finished() && segments < 10; ++segments) {
+    if (const auto more = encoder.next(segment, certificate); !more) {
+      ADD_FAILURE() << more.error().text;
+      break;
+    }
+    EXPECT_LE(certificate.worst_deviation_counts, encoding.bound_counts);
+  }
+  EXPECT_TRUE(encoder.finished());
+  return static_cast<double>(encoder.knot().tick) * tick - kEnd;
+}
+
+// Where a joint is slow to come to its last count, a drive may be left with less than a count a second, away
+// from there or on its way. It is within the bound for long, but the path is over.
+TEST(ImsEncoder, ADriveThatCreepsIsAtRestSoonAfterThePathsEnd) {
+  constexpr double kSoon = kLongest + 0.05;  // s: a segment in which it lands, or brakes and settles
+  for (const std::int32_t at : {3182, 3184}) {
+    for (const double counts_per_second : {0.05, 0.3, 1.0, 4.0, 8.0}) {
+      for (const double begin : {0.0, 0.25, 0.288, 0.3}) {
+        SCOPED_TRACE(::testing::Message() << counts_per_second << " counts/s from " << at << " at " << begin);
+        EXPECT_LE(rest_after_end(at, counts_per_second, begin), kSoon);
+        EXPECT_LE(rest_after_end(at, -counts_per_second, begin), kSoon);
+      }
+    }
+  }
+}
+
 TEST(ImsEncoder, LastSegmentRepeatsTheVelocityItStartsWith) {
   const ImsStream stream = encode_ims(move(1.2, 1.5), ims_encoding(), 0).value();
   const ImsSegment& last = stream.segments.back();

@@ -100,6 +100,8 @@ class ImsSearch {
   void offer_ramp(const ImsCandidate& from, std::size_t index, double bound, std::int64_t ticks,
                   double acceleration);
   void offer(const ImsCandidate& candidate, double bound);
+  bool may_end(const ImsCandidate& candidate, double bound);
+  bool may_settle(const interpolation::ImsState& state, std::int64_t tick, double bound, ImsMove& move);
   bool may_land(const interpolation::ImsState& state, std::int64_t tick, double bound, ImsMove& move);
   std::int64_t ticks_to_look(std::int64_t tick) const;
   void choose(const ImsGeneration& parents, ImsGeneration& children);
