@@ -23,10 +23,11 @@ trajectory::GoalRules rules_of_waiting(trajectory::GoalRules rules, const trajec
 }
 
 /// Whether a goal that the drives do not follow may be tried again with an easier way to its first point, as
-/// GoalRules::least_late of `later()`.
+/// GoalRules::least_late of `later()`. A lead-in goes before the goal's time 0: it makes no point late.
 bool may_be_later(const trajectory::GoalRules& rules, const trajectory::GoalPlan& plan) {
   constexpr GoalTime kMost{0.8};
-  return rules.join_late && plan.bridge && rules.least_late < kMost;
+  const bool can_be_easier = plan.bridge ? rules.join_late : plan.lead_in.count() > 0.0;
+  return can_be_easier && rules.least_late < kMost;
 }
 
 trajectory::GoalRules later(trajectory::GoalRules rules) {
