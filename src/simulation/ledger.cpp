@@ -83,10 +83,19 @@ void Ledger::disturb(HostTime now) {
 }
 
 void Ledger::add_absence(HostTime from, HostTime until) {
-  last_absence_ = until;
+  absences_.push_back({from, until});
   for (auto& [id, goal] : goals_) goal.due += until - from;
   for (auto& [id, request] : requests_) request.due += until - from;
   if (seconds(until - from) > arm_.tolerated_absence(state_)) disturb(until);
+}
+
+std::uint32_t Ledger::syncs_in_absences(HostTime since, double period) const {
+  std::uint32_t syncs = 0;
+  for (const Absence& absence : absences_) {
+    if (absence.until < since) continue;
+    syncs += 1U + static_cast<std::uint32_t>(seconds(absence.until - absence.from) / period);
+  }
+  return syncs;
 }
 
 void Ledger::enter(motion::GroupState state, HostTime now) {

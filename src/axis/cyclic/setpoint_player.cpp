@@ -124,10 +124,12 @@ HostDuration SetpointPlayer::longest_motion(HostTime) const {
 /// One target position for each SYNC, right behind the SYNC before it.
 void SetpointPlayer::send_target() {
   canopen::Master& master = drive_.master();
-  if (!stage_.wants_targets() || master.pending_control() > kJammed) return;
-  const auto target = drive_.setpoints().next(master.next_sync_due());
-  if (!target) return;
-  ++(send(*target) ? sent_ : refused_);
+  SetpointStream& setpoints = drive_.setpoints();
+  setpoints.leave_out(master.sync_timing().first_left_out(), master.sync_timing().last_left_out());
+  const bool sends = stage_.wants_targets() && master.pending_control() <= kJammed;
+  const auto target = sends ? setpoints.next(master.next_sync_due()) : std::nullopt;
+  if (target) ++(send(*target) ? sent_ : refused_);
+  drive_.node().set_needs_sync(stage_.wants_targets() && !setpoints.is_led());
 }
 
 /// The torque first: the drive takes all of them at SYNC.
