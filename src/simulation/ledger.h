@@ -45,6 +45,7 @@ struct FaultEntry {
 struct Absence {
   HostTime from{};
   HostTime until{};
+  bool tolerated = true;  ///< it must go unnoticed
 };
 
 /// What has been asked of the driver, what it has answered, and what was done to it. The invariants judge by
@@ -81,6 +82,9 @@ class Ledger {
   /// How many SYNCs `period` s apart may have been due while the host was away, in absences that have ended
   /// since `since`.
   std::uint32_t syncs_in_absences(HostTime since, double period) const;
+  /// The host is away for longer than must go unnoticed: a drive that gets a target position each `period` s
+  /// has come to the end of those it was sent, or is not led again yet.
+  bool are_drives_alone(HostTime when, double period) const;
   HostTime last_fault() const { return faults_.empty() ? HostTime::min() : faults_.back().time; }
   bool is_dead() const { return died_ != kNever; }
   HostTime died() const { return died_; }

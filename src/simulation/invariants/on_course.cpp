@@ -10,17 +10,28 @@ namespace {
 /// which the next path starts.
 constexpr double kSlack = 0.5;
 
+/// A path is loaded into the drives, or played.
+bool is_under_way(motion::GroupState state) {
+  using motion::GroupState;
+  return state == GroupState::Preparing || state == GroupState::Moving || state == GroupState::Settling ||
+         state == GroupState::Streaming || state == GroupState::Standing;
+}
+
 }  // namespace
 
 void OnCourse::goal_ended(const GoalEntry& goal) {
   if (goal.result->outcome != motion::GoalOutcome::Succeeded || goal.is_stop) return;
   ended_ = goal.result->id;
   met_motion_ = goal.met_motion;
-  accepted_ = goal.accepted;
+}
+
+// Of goals that have taken over in motion the driver tells what is missing since that motion began.
+void OnCourse::state_change(HostTime now) {
+  if (is_under_way(ledger().state()) && !is_under_way(ledger().former_state())) began_ = now;
 }
 
 std::uint32_t OnCourse::allowed_underruns(const Joint& joint) const {
-  return joint.kind == "cyclic" ? ledger().syncs_in_absences(accepted_, joint.target_period) : 0U;
+  return joint.kind == "cyclic" ? ledger().syncs_in_absences(began_, joint.target_period) : 0U;
 }
 
 void OnCourse::look(const Look& look) {

@@ -17,6 +17,7 @@ class OnCourse : public Invariant {
 
   std::string name() const override { return "on course"; }
   void look(const Look& look) override;
+  void state_change(HostTime now) override;
   void goal_ended(const GoalEntry& goal) override;
 
  private:
@@ -24,7 +25,7 @@ class OnCourse : public Invariant {
 
   motion::GoalId ended_ = 0;
   bool met_motion_ = false;
-  HostTime accepted_{};
+  HostTime began_{};  ///< the motion under way
 };
 
 }  // namespace interpolated_motion::simulation
