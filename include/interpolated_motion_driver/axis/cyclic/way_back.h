@@ -26,7 +26,8 @@ double demand_acceleration(const Departure& from, const trajectory::Path& way_on
 
 /// The way of a drive back to `path`, in position, velocity and acceleration, and on along it: the shortest
 /// of 6 periods and more that keeps 1.1 times the limits and is executed with an acceleration of the demand
-/// within `encoding.max_acceleration`; if none is, the gentlest. Its first piece is the way back. Nothing
+/// within `encoding.max_acceleration`; if none is, the gentlest. It begins with the drive's position and
+/// velocity, and with its acceleration where such a way is found. Its first piece is the way back. Nothing
 /// where none of up to 50 periods keeps the limits (trajectory::rejoin): then the joint has to be stopped.
 std::optional<trajectory::Path> way_back(const trajectory::Path& path, const Departure& from,
                                          const trajectory::JointLimits& limits,
