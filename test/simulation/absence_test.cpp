@@ -20,7 +20,9 @@ class WhileTheHostIsAway : public testing::Test {
 
   void enter(GroupState state, double time) {
     ledger.enter(state, at(time));
-    on_course.state_change(at(time));
+    Look look;
+    look.now = at(time);
+    on_course.look(look);
   }
 
   /// A goal from rest, of which the driver says at its end that so many target positions were missing.
@@ -55,6 +57,7 @@ class WhileTheHostIsAway : public testing::Test {
 TEST_F(WhileTheHostIsAway, OneTargetPositionMayBeMissingForEachSync) {
   enter(GroupState::Idle, 0.5);
   ledger.add_absence(at(0.6), at(0.604));
+  enter(GroupState::Idle, 0.9);
   enter(GroupState::Preparing, 1.0);
   enter(GroupState::Moving, 1.1);
   ledger.add_absence(at(1.2), at(1.204));
@@ -68,6 +71,7 @@ TEST_F(WhileTheHostIsAway, OneTargetPositionMayBeMissingForEachSync) {
 TEST_F(WhileTheHostIsAway, NoneMayBeMissingWithoutThat) {
   enter(GroupState::Idle, 0.5);
   ledger.add_absence(at(0.6), at(0.604));
+  enter(GroupState::Idle, 0.9);
   enter(GroupState::Preparing, 1.0);
   succeed(1);
   EXPECT_TRUE(on_course.violation());

@@ -26,15 +26,16 @@ void OnCourse::goal_ended(const GoalEntry& goal) {
 }
 
 // Of goals that have taken over in motion the driver tells what is missing since that motion began.
-void OnCourse::state_change(HostTime now) {
-  if (is_under_way(ledger().state()) && !is_under_way(ledger().former_state())) began_ = now;
-}
-
 std::uint32_t OnCourse::allowed_underruns(const Joint& joint) const {
-  return joint.kind == "cyclic" ? ledger().syncs_in_absences(began_, joint.target_period) : 0U;
+  return joint.kind == "cyclic" ? ledger().syncs_in_absences(rested_, joint.target_period) : 0U;
 }
 
 void OnCourse::look(const Look& look) {
+  judge(look);
+  if (look.is_host_there && !is_under_way(ledger().state())) rested_ = look.now;
+}
+
+void OnCourse::judge(const Look& look) {
   if (ledger().is_disturbed() || ended_ == 0 || look.report == nullptr || !look.report->valid ||
       look.report->goal != ended_)
     return;

@@ -17,15 +17,15 @@ class OnCourse : public Invariant {
 
   std::string name() const override { return "on course"; }
   void look(const Look& look) override;
-  void state_change(HostTime now) override;
   void goal_ended(const GoalEntry& goal) override;
 
  private:
+  void judge(const Look& look);
   std::uint32_t allowed_underruns(const Joint& joint) const;
 
   motion::GoalId ended_ = 0;
   bool met_motion_ = false;
-  HostTime began_{};  ///< the motion under way
+  HostTime rested_{};  ///< last seen without a motion under way
 };
 
 }  // namespace interpolated_motion::simulation
