@@ -168,6 +168,7 @@ void SetpointPlayer::load(HostTime now) {
   finished_ = false;
   sent_at_load_ = sent_;
   missed_at_load_ = drive_.setpoints().missed();
+  report_.reset();
   enter(Phase::Loading, now);
 }
 
@@ -227,6 +228,7 @@ void SetpointPlayer::stop(HostTime now) {
 }
 
 void SetpointPlayer::come_to_rest(HostTime now) {
+  report_ = report();
   rest_counts_ = drive_.setpoints().newest_counts();
   drive_.setpoints().rest(rest_counts_);
   enter(Phase::Ready, now);
@@ -321,6 +323,7 @@ void SetpointPlayer::motion_status(HostTime now, AxisStatus& out) const {
 }
 
 AxisReport SetpointPlayer::report() const {
+  if (report_) return *report_;
   const auto missed = static_cast<std::uint32_t>(drive_.setpoints().missed() - missed_at_load_);
   return {sent_ - sent_at_load_, missed == 0 ? 1U : 0U, missed};
 }

@@ -107,6 +107,20 @@ TEST_F(CyclicHostStall, OfTwoPeriodsIsRiddenThrough) {
   EXPECT_GE(status.underruns, 1U);
 }
 
+// Target positions go on at rest, but they are no more of the motion.
+TEST_F(CyclicHostStall, AtRestIsNotReportedOfTheMotionBefore) {
+  ASSERT_TRUE(run_until([&] { return axis.finished() && axis.state() == AxisState::Ready; }));
+  const axis::AxisReport ended = axis.report();
+  EXPECT_EQ(ended.underruns, 0U);
+  run_to_next_sync();
+  run(0.008);
+  stall(milliseconds(6));
+  run(0.1);
+  EXPECT_EQ(link.master().sync_timing().skipped(), 1U);
+  EXPECT_EQ(axis.report().underruns, 0U);
+  EXPECT_EQ(axis.report().records_sent, ended.records_sent);
+}
+
 // The drive gives up by itself, and the host finds it in fault when it wakes.
 TEST_F(CyclicHostStall, BeyondTheRideThroughStopsTheDriveByItself) {
   run_to_next_sync();
