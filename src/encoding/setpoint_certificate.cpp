@@ -96,25 +96,29 @@ class Execution {
   std::size_t known_ = 0;
 };
 
-/// The largest acceleration of a demand made of polynomials. Within one it is extreme at the ends; from one
-/// to the next the velocity steps, which the drive sees as the second difference of its samples there.
+/// The largest acceleration of a demand made of polynomials, each in effect for a period. Within one it is
+/// extreme at the ends; from one to the next the velocity steps, and behind a missing target position the
+/// demand itself, which the drive sees as the second difference of its samples there.
 class AccelerationWatch {
  public:
   explicit AccelerationWatch(const SetpointEncoding& encoding)
       : period_(encoding.period.count()), servo_period_(encoding.servo_period.count()) {}
 
-  void take(const CipPolynomial& demand) {
-    note(demand.second_derivative(0.0));
-    note(demand.second_derivative(period_));
+  /// `begin`: s after its second knot, when it takes effect.
+  void take(const CipPolynomial& demand, double begin = 0.0) {
+    note(demand.second_derivative(begin));
+    note(demand.second_derivative(begin + period_));
     if (known_) {
-      const double rise = demand.value(servo_period_) - demand.value(0.0);
-      note((rise - last_rise_) / (servo_period_ * servo_period_));
+      const double rise = demand.value(begin + servo_period_) - demand.value(begin);
+      const double step = demand.value(begin) - last_value_;
+      note((std::abs(rise - last_rise_) + std::abs(step)) / (servo_period_ * servo_period_));
     }
-    know(demand);
+    know(demand, begin + period_);
   }
-  /// One that is not judged: where the next one sets out.
-  void know(const CipPolynomial& demand) {
-    last_rise_ = demand.value(period_) - demand.value(period_ - servo_period_);
+  /// One that is not judged: where the next one sets out, at `end`, s after its second knot.
+  void know(const CipPolynomial& demand, double end) {
+    last_value_ = demand.value(end);
+    last_rise_ = last_value_ - demand.value(end - servo_period_);
     known_ = true;
   }
   double worst() const { return worst_; }
@@ -124,6 +128,7 @@ class AccelerationWatch {
 
   double period_;
   double servo_period_;
+  double last_value_ = 0.0;
   double last_rise_ = 0.0;
   bool known_ = false;
   double worst_ = 0.0;
@@ -201,6 +206,21 @@ double demand_acceleration(const trajectory::Path& path, GoalTime first, const S
   return watch.worst();
 }
 
+double demand_acceleration(interpolation::CipKnots known, GoalTime next, GoalTime until,
+                           const trajectory::Path& way_on, const SetpointEncoding& encoding) {
+  if (encoding.order == 1) return 0.0;
+  AccelerationWatch watch(encoding);
+  PathSweep setpoints(way_on);
+  const auto demand = [&] { return interpolation::cip_polynomial_through(encoding.order, known); };
+  watch.know(demand(), (next - encoding.period).count() - known[1].time);
+  for (; next <= until; next += encoding.period) {
+    std::copy_backward(known.begin(), known.end() - 1, known.end());
+    known[0] = {next.count(), setpoints.position(next)};
+    watch.take(demand(), (next - encoding.period).count() - known[1].time);
+  }
+  return watch.worst();
+}
+
 std::optional<AccelerationPeak> find_acceleration_beyond(const trajectory::Path& before, GoalTime known,
                                                          const trajectory::Path& way_on,
                                                          const SetpointEncoding& encoding) {
@@ -215,7 +235,7 @@ std::optional<AccelerationPeak> find_acceleration_beyond(const trajectory::Path&
   const GoalTime join = known + std::floor(ahead / encoding.period + kOnTheGrid) * encoding.period;
   for (std::size_t i = 0; i < kCipHistory; ++i)
     values[i] = before.sample(join - static_cast<double>(i) * encoding.period).position;
-  watch.know(demand());
+  watch.know(demand(), encoding.period.count());
   const GoalTime end = way_on.end_time() + kCipHistory * encoding.period;
   for (GoalTime time = join + encoding.period; time < end; time += encoding.period) {
     std::copy_backward(values.begin(), values.end() - 1, values.end());

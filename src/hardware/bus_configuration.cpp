@@ -12,6 +12,9 @@ namespace interpolated_motion::hardware {
 namespace {
 
 constexpr double kTimeStampInterval = 0.010;  // s
+/// Shares of sync_period: drives shift their grid by a part of how late a SYNC is, and go on without one.
+constexpr double kSyncTolerance = 0.05;
+constexpr double kLeastSyncTolerance = 0.01;
 
 /// The rates of command BRT.
 const std::vector<std::pair<std::string, std::uint32_t>> kBauds = {
@@ -36,6 +39,8 @@ void parse_feedback_timeout(ParameterReader& reader, BusConfiguration& bus) {
 void parse_can_bus(ParameterReader& reader, BusConfiguration& bus) {
   bus.bitrate = reader.choice("bitrate", bus.bitrate, kBitrates);
   bus.sync_period = reader.number("sync_period", bus.sync_period, 0.001, 0.1);
+  bus.sync_tolerance = reader.number("sync_tolerance", bus.sync_period * kSyncTolerance,
+                                     bus.sync_period * kLeastSyncTolerance, bus.sync_period / 2.0);
   bus.heartbeat_period = reader.number("heartbeat_period", bus.heartbeat_period, 0.01, 10.0);
   bus.heartbeat_timeout = reader.number("heartbeat_timeout", bus.heartbeat_timeout, 0.02, 60.0);
   if (bus.heartbeat_timeout < 1.5 * bus.heartbeat_period) {

@@ -17,6 +17,7 @@ canopen::MasterParameters master_parameters(const BusConfiguration& configuratio
   parameters.heartbeat_period = host_duration(configuration.heartbeat_period);
   parameters.heartbeat_timeout = host_duration(configuration.heartbeat_timeout);
   parameters.sync_period = host_duration(configuration.sync_period);
+  parameters.sync_tolerance = host_duration(configuration.sync_tolerance);
   parameters.isochronous = configuration.isochronous;
   parameters.time_stamp_period = configuration.time_stamp_period();
   parameters.bitrate = configuration.bitrate;

@@ -40,11 +40,13 @@ std::optional<Refusal> Planning::plan_from_rest() {
   return refuse_beyond_buses(*this, GoalTime{0.0} - plan.lead_in);
 }
 
-/// Whether a goal that the drives do not follow may be tried again with an easier way to its first point.
+/// Whether a goal that the drives do not follow may be tried again with an easier way to its first point. A
+/// lead-in goes before the goal's time 0: it makes no point late.
 bool Planning::try_later() {
   constexpr GoalTime kFirst{0.1};
   constexpr GoalTime kMost{0.8};
-  if (!rules.join_late || !plan.bridge || rules.least_late >= kMost) return false;
+  const bool can_be_easier = plan.bridge ? rules.join_late : plan.lead_in.count() > 0.0;
+  if (!can_be_easier || rules.least_late >= kMost) return false;
   rules.least_late = std::max(kFirst, 2.0 * rules.least_late);
   return true;
 }

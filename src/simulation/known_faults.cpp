@@ -21,10 +21,6 @@ const std::vector<KnownFault>& known_faults() {
        "on course",
        {"(cyclic)", "off the path"},
        "P14"},
-      {"a cyclic drive shifts its grid with a late SYNC",
-       "limits",
-       {"(cyclic)", "rad/s", "after the host was away"},
-       "P14"},
   };
   return faults;
 }

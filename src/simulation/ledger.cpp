@@ -83,10 +83,29 @@ void Ledger::disturb(HostTime now) {
 }
 
 void Ledger::add_absence(HostTime from, HostTime until) {
-  last_absence_ = until;
+  const bool tolerated = seconds(until - from) <= arm_.tolerated_absence(state_);
+  absences_.push_back({from, until, tolerated});
   for (auto& [id, goal] : goals_) goal.due += until - from;
   for (auto& [id, request] : requests_) request.due += until - from;
-  if (seconds(until - from) > arm_.tolerated_absence(state_)) disturb(until);
+  if (!tolerated) disturb(until);
+}
+
+std::uint32_t Ledger::syncs_in_absences(HostTime since, double period) const {
+  std::uint32_t syncs = 0;
+  for (const Absence& absence : absences_) {
+    if (absence.until < since) continue;
+    syncs += 1U + static_cast<std::uint32_t>(seconds(absence.until - absence.from) / period);
+  }
+  return syncs;
+}
+
+// Sent is the target position for the next SYNC, and it is reached a period behind that. The first one after
+// an absence comes with the next SYNC again, and until a period behind that the drive goes on as it went.
+bool Ledger::are_drives_alone(HostTime when, double period) const {
+  return std::any_of(absences_.begin(), absences_.end(), [&](const Absence& absence) {
+    const HostTime last = absence.until + host_duration(2.0 * period);
+    return !absence.tolerated && when > absence.from + host_duration(period) && when <= last;
+  });
 }
 
 void Ledger::enter(motion::GroupState state, HostTime now) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -40,6 +41,13 @@ struct FaultEntry {
   std::string command;
 };
 
+/// The host was not there.
+struct Absence {
+  HostTime from{};
+  HostTime until{};
+  bool tolerated = true;  ///< it must go unnoticed
+};
+
 /// What has been asked of the driver, what it has answered, and what was done to it. The invariants judge by
 /// it.
 class Ledger {
@@ -70,7 +78,13 @@ class Ledger {
   std::size_t setpoints_accepted() const { return setpoints_; }
   HostTime last_setpoint() const { return last_setpoint_; }
   /// The host has been there again since; HostTime{} when it was never away.
-  HostTime last_absence() const { return last_absence_; }
+  HostTime last_absence() const { return absences_.empty() ? HostTime{} : absences_.back().until; }
+  /// How many SYNCs `period` s apart may have been due while the host was away, in absences that have ended
+  /// since `since`.
+  std::uint32_t syncs_in_absences(HostTime since, double period) const;
+  /// The host is away for longer than must go unnoticed: a drive that gets a target position each `period` s
+  /// has come to the end of those it was sent, or is not led again yet.
+  bool are_drives_alone(HostTime when, double period) const;
   HostTime last_fault() const { return faults_.empty() ? HostTime::min() : faults_.back().time; }
   bool is_dead() const { return died_ != kNever; }
   HostTime died() const { return died_; }
@@ -100,7 +114,7 @@ class Ledger {
   motion::GroupState former_state_ = motion::GroupState::Starting;
   HostTime state_since_{};
   HostTime last_setpoint_ = HostTime::min();
-  HostTime last_absence_{};
+  std::vector<Absence> absences_;
   std::size_t setpoints_ = 0;
   bool disturbed_ = false;
   HostTime died_ = kNever;

@@ -303,8 +303,9 @@ Expected<GoalPlan, Refusal> plan_goal(const Goal& goal, const GoalRules& rules,
   auto selected = select_points(goal, rules, now, plan.warnings);
   if (!selected) return selected.error();
   PointSelection selection = std::move(selected).value();
-  const auto start = plan_start(goal, rules, present, selection);
+  auto start = plan_start(goal, rules, present, selection);
   if (!start) return start.error();
+  if (start.value().lead_in.count() > 0.0) start.value().lead_in += rules.least_late;
   if (!start.value().warning.empty()) plan.warnings.push_back(start.value().warning);
   warn_of_unused_accelerations(goal, plan.warnings);
 

@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/trajectory/rejoin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@ constexpr double kNextBridge = 1.5;
 
 JointLimits widened(const JointLimits& limits, const State& from, double margin) {
   JointLimits wide = limits;
-  wide.max_velocity *= margin;
+  wide.max_velocity = std::max(margin * wide.max_velocity, std::abs(from.velocity));
   wide.max_acceleration *= margin;
   wide.min_position = std::min(wide.min_position, from.position);
   wide.max_position = std::max(wide.max_position, from.position);

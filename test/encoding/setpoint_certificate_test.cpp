@@ -206,6 +206,37 @@ TEST(DemandAcceleration, OfAStepInAccelerationIsThatOfTheStepInVelocity) {
   EXPECT_NEAR(demand_acceleration(path, GoalTime{0.4}, e), 100.0, 1.0) << "0.1 rad/s within 1 ms";
 }
 
+TEST(DemandAcceleration, OfADriveThatHasTheTargetPositionsBeforeIsTheSame) {
+  const SetpointEncoding e = encoding(1e6);
+  const trajectory::Path path =
+      braking_path(trajectory::jerk_limited_stop({0.5, 1.0, 0.0}, GoalTime{0.5}, {10.0, GoalTime{0.02}}));
+  interpolation::CipKnots known;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const GoalTime time{0.4 - 0.01 * static_cast<double>(i)};
+    known[i] = {time.count(), path.sample(time).position};
+  }
+  EXPECT_NEAR(demand_acceleration(known, GoalTime{0.41}, path.end_time() + GoalTime{0.035}, path, e),
+              demand_acceleration(path, GoalTime{0.35}, e), 1e-6);
+}
+
+// The target position of 10 ms is missing, and that of 20 ms is d beside the line that the drive goes on
+// along from 10 ms on: there the cubic through 20, 0, -10 and -20 ms is d (1 2 3) / (2 3 4) beside it, a
+// step.
+TEST(DemandAcceleration, BehindAGapIsThatOfTheStepOfTheDemand) {
+  const SetpointEncoding e = encoding(1e6);
+  const interpolation::CipKnots line{{{0.0, 0.0}, {-0.01, -0.01}, {-0.02, -0.02}, {-0.03, -0.03}}};
+  const auto found = [&](double d) {
+    const trajectory::Path beside({{GoalTime{0.0}, GoalTime{1.0}, {{d, 1.0}}}});
+    return demand_acceleration(line, GoalTime{0.02}, GoalTime{0.02}, beside, e);
+  };
+  EXPECT_NEAR(found(0.0), 0.0, 1e-6);
+  constexpr double kBeside = 0.004;
+  const double step = kBeside / 4.0 / 1e-6;
+  EXPECT_GE(found(kBeside), step);
+  // Within the next ms the cubic goes on from d/4 to d (11 21 31) / 24000.
+  EXPECT_LE(found(kBeside), step + kBeside * (11.0 * 21.0 * 31.0 / 24000.0 - 0.25) / 1e-6 + 1e-6);
+}
+
 // From constant velocity into 10 per s^2 at once: the velocity of the demand steps by a sixth of that times
 // the period, and more where two cubics meet that both know of it.
 TEST(AccelerationBeyond, IsFoundBehindTheJoinAlone) {

@@ -88,6 +88,9 @@ const BadConfiguration kBadCyclic[] = {
      "{buses: {can0: {sync_period: 0.0025}}}",
      {"buses/can0/sync_period", "0.0025", "joint1", "0.001..0.02"}},
     {"PeriodTooLong", "{buses: {can0: {sync_period: 0.05}}}", {"buses/can0/sync_period", "0.05"}},
+    {"SyncToleranceBeyondHalfAPeriod",
+     "{buses: {can0: {sync_period: 0.004, sync_tolerance: 0.003}}}",
+     {"buses/can0/sync_tolerance", "0.003", "4e-05..0.002"}},
     {"BusTooSlowForThePeriod", "{buses: {can0: {sync_period: 0.001}}}", {"can0", "sync_period", "6 drives"}},
     {"OrderOutOfRange",
      "{drives: {joint1: {interpolation_order: 4}}}",
@@ -175,6 +178,15 @@ TEST(Configuration, TimeStampsComeAboutEachTenMilliseconds) {
   EXPECT_EQ(bus.time_stamp_period(), 4);
   bus.clock_discipline = false;
   EXPECT_EQ(bus.time_stamp_period(), 0);
+}
+
+TEST(Configuration, ToleranceOfSyncGrowsWithItsPeriod) {
+  const auto tolerance = [](const char* bus) {
+    return hardware::parse_configuration(arm_of(2, bus), six_axis_urdf()).buses[0].sync_tolerance;
+  };
+  EXPECT_DOUBLE_EQ(tolerance("{buses: {can0: {sync_period: 0.01}}}"), 0.0005);
+  EXPECT_DOUBLE_EQ(tolerance("{buses: {can0: {sync_period: 0.02}}}"), 0.001);
+  EXPECT_DOUBLE_EQ(tolerance("{buses: {can0: {sync_period: 0.02, sync_tolerance: 0.01}}}"), 0.01);
 }
 
 TEST(Configuration, KeysOfTheNodeAreItsOwnBusiness) {

@@ -101,6 +101,19 @@ TEST(GoalPlanner, LeadsInForAtLeastTwentyMilliseconds) {
   EXPECT_DOUBLE_EQ(plan_one({point(0, {0}), point(1, {1})}, 0.01).lead_in.count(), 0.020);
 }
 
+// For a drive that goes beyond the limits between the target positions of so short a lead-in.
+TEST(GoalPlanner, LeadsInForLongerWhereThatIsAskedFor) {
+  GoalRules rules = rules_for(1);
+  rules.least_late = GoalTime{0.1};
+  const Goal goal = one_joint({point(0, {0}), point(1, {1})});
+  const auto plan = plan_goal(goal, rules, {{0.01, 0, 0}}, kNow).value();
+  EXPECT_DOUBLE_EQ(plan.lead_in.count(), 0.120);
+  EXPECT_DOUBLE_EQ(plan.paths[0].start_time().count(), -0.120);
+  EXPECT_EQ(plan.duration.count(), 1.0) << "no point is met later";
+  EXPECT_TRUE(plan.warnings.empty());
+  EXPECT_EQ(plan_goal(goal, rules, {{0, 0, 0}}, kNow).value().lead_in.count(), 0.0);
+}
+
 TEST(GoalPlanner, RefusesAStartFarFromThePresentPosition) {
   const std::string text = refusal_of_one({point(0, {0.5}), point(1, {1})}, 0.25);
   EXPECT_TRUE(contains(text, "joint1: the trajectory starts at 0.5 rad, but the joint is at 0.25 rad"))

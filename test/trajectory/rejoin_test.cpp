@@ -93,5 +93,15 @@ TEST(Rejoin, FromOutsideThePositionsGoesInwards) {
   EXPECT_NEAR(back->final_position(), 2.0, 1e-12);
 }
 
+// Nor that it is too fast already; it is not to become faster.
+TEST(Rejoin, FromBeyondTheVelocityBecomesSlower) {
+  JointLimits slow = limits();
+  slow.max_velocity = 1.9;
+  const State there = path().sample(GoalTime{2.0});
+  const auto back = rejoin(path(), {there.position, 2.2, 0.0}, GoalTime{2.0}, slow, 1.0, kShortest, kLongest);
+  ASSERT_TRUE(back);
+  for (double t = 2.0; t <= 3.0; t += 1e-3) EXPECT_LE(back->sample(GoalTime{t}).velocity, 2.2 + 1e-9) << t;
+}
+
 }  // namespace
 }  // namespace interpolated_motion::trajectory

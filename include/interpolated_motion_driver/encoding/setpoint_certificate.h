@@ -6,6 +6,7 @@
 #include <string>
 
 #include "interpolated_motion_driver/encoding/transmission.h"
+#include "interpolated_motion_driver/interpolation/cip_polynomial.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/units/expected.h"
 #include "interpolated_motion_driver/units/refusal.h"
@@ -56,6 +57,14 @@ Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, co
 /// rounded to counts: by differences of its demand from servo sample to servo sample, between the target
 /// positions at `first` and those behind the path. `encoding` must be valid.
 double demand_acceleration(const trajectory::Path& path, GoalTime first, const SetpointEncoding& encoding);
+
+/// The same of a drive that goes on from `known`, the target positions that it has, the newest first, at
+/// times of `way_on` in s that need not be a period apart. The next ones are those of `way_on` at `next`,
+/// later than all of `known`, and from there on a period apart; what the drive makes of those up to `until`
+/// counts, the step of its demand where the first takes effect too. 0 for order 1, where an acceleration
+/// means nothing.
+double demand_acceleration(interpolation::CipKnots known, GoalTime next, GoalTime until,
+                           const trajectory::Path& way_on, const SetpointEncoding& encoding);
 
 /// An acceleration of what a drive makes of its target positions.
 struct AccelerationPeak {

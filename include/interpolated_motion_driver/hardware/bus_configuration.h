@@ -74,6 +74,7 @@ struct BusConfiguration {
   SerialLineConfiguration serial;     ///< of type Silverlode, emulated or not
   std::uint32_t bitrate = 1'000'000;  ///< bit/s
   double sync_period = 0.010;         ///< s, period of the SYNC object and so of position feedback
+  double sync_tolerance = 0.0005;     ///< s, later a SYNC is left out that is the time base of drives
   double heartbeat_period = 0.1;      ///< s, of the host's and the drives' heartbeats
   double heartbeat_timeout = 0.5;     ///< s without a heartbeat until the other side counts as lost
   double watch_at_rest = 0.0;         ///< s, the same of an EPOS at rest; 0: never

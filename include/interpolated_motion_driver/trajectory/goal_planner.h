@@ -34,8 +34,8 @@ struct GoalPlan {
 /// At rest:
 /// - First point at time 0 (earlier than `kMinimumStep`): the start. It must be within `start_tolerance` of
 ///   the present position; if any joint is farther than `lead_in_threshold`, all joints first move there,
-///   rest to rest, at no more than half of their limits, in -`lead_in` .. 0. Nearer than that the path begins
-///   at the point itself.
+///   rest to rest, at no more than half of their limits, in -`lead_in` .. 0
+///   (`GoalRules::least_late` makes that longer). Nearer than that the path begins at the point itself.
 /// - First point at time 0 with a velocity above `kRestVelocity`: it cannot be met from rest. As in
 ///   joint_trajectory_controller the present state takes its place; a warning says so. Likewise one that is
 ///   out of tolerance for joints that were braking when the goal was sent (`GoalRules::sent_in_motion`).

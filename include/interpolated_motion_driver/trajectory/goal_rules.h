@@ -40,8 +40,9 @@ struct GoalRules {
   /// Where the first point cannot be reached in time within the limits, it and all others are met that much
   /// later; else such a goal is refused.
   bool join_late = false;
-  /// With `join_late`: how much later at least, >= 0, where the way to the first point begins at the present
-  /// positions. More than the limits ask for is for drives that interpolate by themselves.
+  /// How much more time than the limits ask for a lead-in takes, >= 0; with `join_late`, how much later at
+  /// least the points are met where the way to the first one begins at the present positions. For drives that
+  /// interpolate by themselves.
   GoalTime least_late{0.0};
   /// The joints were braking when the goal was sent, and have come to rest since. A first point at time 0 out
   /// of tolerance is then left out, as for joints in motion.

@@ -12,8 +12,8 @@ namespace interpolated_motion::trajectory {
 /// Path of a joint that has been led astray: from `from` at goal time `start` a quintic back to `path`, in
 /// position, velocity and acceleration, and on along it. The bridge is the shortest of `shortest`, longer by
 /// a half, and so on, at most `longest`, that keeps `limits` with `margin` (>= 1) as a factor of velocity and
-/// acceleration. Nothing if none does: then the joint has to be stopped. Positions are allowed what `from`
-/// is beyond their limits already.
+/// acceleration. Nothing if none does: then the joint has to be stopped. Positions and velocity are
+/// allowed what `from` is beyond their limits already.
 std::optional<Path> rejoin(const Path& path, const State& from, GoalTime start, const JointLimits& limits,
                            double margin, GoalTime shortest, GoalTime longest);
 

@@ -125,10 +125,12 @@ HostDuration SetpointPlayer::longest_motion(HostTime) const {
 /// One target position for each SYNC, right behind the SYNC before it.
 void SetpointPlayer::send_target() {
   canopen::Master& master = drive_.master();
-  if (!stage_.wants_targets() || master.pending_control() > kJammed) return;
-  const auto target = drive_.setpoints().next(master.next_sync_due());
-  if (!target) return;
-  ++(send(*target) ? sent_ : refused_);
+  SetpointStream& setpoints = drive_.setpoints();
+  setpoints.leave_out(master.sync_timing().first_left_out(), master.sync_timing().last_left_out());
+  const bool sends = stage_.wants_targets() && master.pending_control() <= kJammed;
+  const auto target = sends ? setpoints.next(master.next_sync_due()) : std::nullopt;
+  if (target) ++(send(*target) ? sent_ : refused_);
+  drive_.node().set_needs_sync(stage_.wants_targets() && !setpoints.is_led());
 }
 
 /// The torque first: the drive takes all of them at SYNC.
@@ -165,6 +167,7 @@ void SetpointPlayer::load(TailPtr tail, HostTime now) {
   finished_ = false;
   sent_at_load_ = sent_;
   missed_at_load_ = drive_.setpoints().missed();
+  report_.reset();
   enter(Phase::Loading, now);
 }
 
@@ -224,6 +227,7 @@ void SetpointPlayer::stop(HostTime now) {
 }
 
 void SetpointPlayer::come_to_rest(HostTime now) {
+  report_ = report();
   rest_counts_ = drive_.setpoints().newest_counts();
   drive_.setpoints().rest(rest_counts_);
   enter(Phase::Ready, now);
@@ -322,6 +326,7 @@ void SetpointPlayer::motion_status(HostTime now, AxisStatus& out) const {
 }
 
 AxisReport SetpointPlayer::report() const {
+  if (report_) return *report_;
   const auto missed = static_cast<std::uint32_t>(drive_.setpoints().missed() - missed_at_load_);
   return {sent_ - sent_at_load_, missed == 0 ? 1U : 0U, missed};
 }

@@ -1,11 +1,12 @@
 #include "interpolated_motion_driver/axis/cyclic/setpoint_stream.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "interpolated_motion_driver/trajectory/jerk_limited_stop.h"
 #include "interpolated_motion_driver/trajectory/limits_check.h"
-#include "interpolated_motion_driver/trajectory/rejoin.h"
 #include "interpolated_motion_driver/trajectory/stop_path.h"
 #include "interpolated_motion_driver/trajectory/stream_path.h"
 
@@ -19,19 +20,18 @@ namespace {
 constexpr int kRamps[] = {3, 4, 5, 6, 8, 10, 12};
 /// Of the limit, for a stop: the drive's polynomials go beyond the acceleration they are laid through.
 constexpr double kBrakingShare = 0.9;
-/// Of the limits, for the way back to the path.
-constexpr double kComeBackMargin = 1.1;
-/// Periods, the way back to the path: fewer are a jerk, and with more the joint is not where it is thought to
-/// be.
-constexpr int kShortestComeBack = 6;
-constexpr int kLongestComeBack = 50;
 
-/// How a stop that begins at `start`, with `before` in front of it, is made for a drive.
+constexpr double kHistory = interpolation::kCipHistory;
+
+/// Largest acceleration of what a drive makes of a stop, per s^2.
+using StopDemand = std::function<double(const trajectory::Path&)>;
+
+/// How a stop that begins at `start` is made for a drive.
 class StopSearch {
  public:
   StopSearch(const encoding::SetpointEncoding& encoding, const trajectory::JointLimits& limits,
-             const trajectory::Path& before, GoalTime start)
-      : encoding_(encoding), limits_(limits), before_(before), start_(start) {}
+             GoalTime start, StopDemand demand)
+      : encoding_(encoding), limits_(limits), start_(start), demand_(std::move(demand)) {}
 
   /// The shortest of which the drive's demand keeps the limit of acceleration; else the smoothest for which
   /// there is room; else the shortest of all.
@@ -42,7 +42,7 @@ class StopSearch {
       const trajectory::Path candidate = trajectory::jerk_limited_stop(
           from, start_, {kBrakingShare * limits_.max_acceleration, periods * encoding_.period});
       if (trajectory::find_position_violation(candidate, limits_)) break;
-      const double acceleration = demand(candidate);
+      const double acceleration = demand_(candidate);
       if (acceleration >= least) continue;
       best = candidate;
       least = acceleration;
@@ -52,26 +52,11 @@ class StopSearch {
   }
 
  private:
-  double demand(const trajectory::Path& stop) const {
-    const GoalTime first = start_ - static_cast<double>(interpolation::kCipHistory) * encoding_.period;
-    return encoding::demand_acceleration(trajectory::splice(before_, first, start_, stop), first, encoding_);
-  }
-
   const encoding::SetpointEncoding& encoding_;
   const trajectory::JointLimits& limits_;
-  const trajectory::Path& before_;
   GoalTime start_;
+  StopDemand demand_;
 };
-
-/// What a joint has come along that goes on evenly as it is: there is no path behind a drive that went
-/// astray.
-trajectory::Path even(const trajectory::State& state, GoalTime end, GoalTime period) {
-  const GoalTime start = end - 4.0 * interpolation::kCipHistory * period;
-  const double t = (end - start).count();
-  const double velocity = state.velocity - state.acceleration * t;
-  const double position = state.position - t * (velocity + 0.5 * state.acceleration * t);
-  return trajectory::Path({{start, end, {{position, velocity, 0.5 * state.acceleration, 0.0, 0.0, 0.0}}}});
-}
 
 }  // namespace
 
@@ -109,31 +94,51 @@ bool SetpointStream::rests_at(GoalTime time) const {
   return time <= path_.start_time() || time >= path_.end_time();
 }
 
+/// Whether all that the drive has been told to interpolate through is one position, and so until `stamp`.
+bool SetpointStream::rests_until(HostTime stamp) const {
+  return rest_ || goal_time(stamp) <= path_.start_time() ||
+         goal_time(history_.oldest_in_use()) >= path_.end_time();
+}
+
 void SetpointStream::brake() {
   if (rest_) return;
   const GoalTime now = goal_time(newest());
   trajectory::State state = path_.sample(now);
   if (rests_at(now)) state.velocity = state.acceleration = 0.0;
   braking_ = true;
-  lay(StopSearch(encoding_, limits_, path_, now).stop(state), newest());
+  if (newest() < back_at_) return lay(stop_off_the_path(state, newest()), newest());
+  const auto demand = [this, now](const trajectory::Path& stop) {
+    const GoalTime first = now - kHistory * encoding_.period;
+    return encoding::demand_acceleration(trajectory::splice(path_, first, now, stop), first, encoding_);
+  };
+  lay(StopSearch(encoding_, limits_, now, demand).stop(state), newest());
+}
+
+Departure SetpointStream::departure(const trajectory::State& there, HostTime stamp) const {
+  const HostTime origin = begin_ - host_duration(path_.start_time().count());
+  const HostTime next = std::max(stamp, newest() + period_);
+  return {there, goal_time(stamp), goal_time(next), history_.knots(origin, encoding_.transmission)};
 }
 
 void SetpointStream::come_back(HostTime stamp) {
-  const GoalTime now = goal_time(stamp);
   trajectory::State there = history_.at(stamp, encoding_.transmission);
   // A polynomial through whole counts bends by their rounding, the more so the farther it is continued.
   there.acceleration = std::clamp(there.acceleration, -limits_.max_acceleration, limits_.max_acceleration);
-  if (braking_) {
-    const trajectory::Path before = even(there, now, encoding_.period);
-    return lay(StopSearch(encoding_, limits_, before, now).stop(there), stamp);
-  }
-  bridge(there, stamp);
+  if (!braking_) return bridge(there, stamp);
+  lay(stop_off_the_path(there, stamp), stamp);
+}
+
+/// There is no path behind a drive that went astray, only what it has been told.
+trajectory::Path SetpointStream::stop_off_the_path(const trajectory::State& there, HostTime stamp) const {
+  const Departure from = departure(there, stamp);
+  const auto demand = [this, &from](const trajectory::Path& stop) {
+    return demand_acceleration(from, stop, stop.end_time() + kHistory * encoding_.period, encoding_);
+  };
+  return StopSearch(encoding_, limits_, from.start, demand).stop(there);
 }
 
 void SetpointStream::bridge(const trajectory::State& there, HostTime stamp) {
-  const auto back =
-      trajectory::rejoin(path_, there, goal_time(stamp), limits_, kComeBackMargin,
-                         kShortestComeBack * encoding_.period, kLongestComeBack * encoding_.period);
+  const auto back = way_back(path_, departure(there, stamp), limits_, encoding_);
   astray_ = !back;
   if (!back) return;
   lay(*back, stamp);
@@ -154,10 +159,17 @@ std::optional<std::int32_t> SetpointStream::next(HostTime sync) {
   const bool continues = newest() != HostTime{};
   const auto gap = continues ? (stamp - newest() - period_ / 2) / period_ : 0;
   missed_ += static_cast<std::uint64_t>(gap);
-  if (gap > 0 && !rest_ && !(rests_at(goal_time(newest())) && rests_at(goal_time(stamp)))) come_back(stamp);
+  if (gap > 0 && !rests_until(stamp)) come_back(stamp);
   counts_ = target_at(stamp);
   history_.add(stamp, counts_);
   return counts_;
+}
+
+// Of those before the newest no later look at the newest will tell.
+void SetpointStream::leave_out(HostTime first, HostTime last) {
+  const HostTime before = newest();
+  const std::size_t dropped = history_.drop(first, last);
+  if (newest() == before) missed_ += dropped;
 }
 
 trajectory::State SetpointStream::newest_motion() const {
@@ -168,8 +180,8 @@ trajectory::State SetpointStream::newest_motion() const {
 
 bool SetpointStream::played(HostTime now) const {
   const GoalTime duration = path_.end_time() - path_.start_time();
-  const HostTime end = begin_ + host_duration(duration.count()) + encoding_.order * period_;
-  return rest_ || (newest() >= end && now >= end);
+  const HostTime end = begin_ + host_duration(duration.count());
+  return rest_ || (history_.oldest_in_use() >= end && now >= end + encoding_.order * period_);
 }
 
 }  // namespace interpolated_motion::axis

@@ -24,6 +24,12 @@ void check_period(const std::string& bus, const char* parameter, HostDuration va
       fmt::format("{}: {} = {} s is not in 0..{} s", bus, parameter, seconds(value), seconds(kLongest)));
 }
 
+void check_sync_tolerance(const std::string& bus, const MasterParameters& p) {
+  if (p.sync_tolerance >= HostDuration::zero() && p.sync_tolerance <= p.sync_period) return;
+  throw std::invalid_argument(fmt::format("{}: sync_tolerance = {} s is not in 0..{} s (sync_period)", bus,
+                                          seconds(p.sync_tolerance), seconds(p.sync_period)));
+}
+
 MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   check_range<int>(bus, "own_node_id", p.own_node_id, 1, kMaxNodeId);
   check_period(bus, "heartbeat_period", p.heartbeat_period);
@@ -33,6 +39,7 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
   if (p.isochronous && p.sync_period == HostDuration::zero()) {
     throw std::invalid_argument(fmt::format("{}: sync_period = 0 s, an isochronous bus needs one", bus));
   }
+  check_sync_tolerance(bus, p);
   check_range(bus, "time_stamp_period", p.time_stamp_period, 0, 1000);
   check_range<std::uint32_t>(bus, "bitrate", p.bitrate, 10'000, 1'000'000);
   check_range(bus, "max_bulk_load", p.max_bulk_load, 0.01, 1.0);
@@ -46,6 +53,14 @@ MasterParameters checked(const std::string& bus, const MasterParameters& p) {
 /// Longest that a SYNC is put off while the last one is not on the bus: a bus that stands still for longer is
 /// told of by the heartbeats that are missed.
 HostDuration sync_patience(const MasterParameters& p) { return p.heartbeat_timeout / 4; }
+
+/// How late the isochronous SYNC may be that is due now; `needed`: by a node.
+HostDuration most_late(const MasterParameters& p, const SyncProducer& sync, const SyncTiming& timing,
+                       bool needed) {
+  const bool again = timing.last_left_out() >= sync.last_due() - p.sync_period;
+  const bool is_strict = p.sync_tolerance > HostDuration::zero() && !needed && !again;
+  return is_strict ? std::min(p.sync_tolerance, p.sync_period / 2) : p.sync_period / 2;
+}
 
 /// Longest that a SYNC is put off while answers to the last one are missing. Of a bus that is not overloaded
 /// they come within a period; where they do not come by then, a SYNC or an answer was lost, and without the
@@ -94,8 +109,15 @@ void Master::poll(HostTime now) {
   if (const auto heartbeat = heartbeat_.poll(now)) heartbeat_due_ = heartbeat;
 }
 
+/// Of several isochronous ones that were missed none is sent: what waits in the drives is for the first of
+/// them. Nor is one while the bus has not taken the one before, behind which the same waits.
 void Master::queue_periodic_sync() {
-  if (parameters_.isochronous && sync_.missed() > 0) return sync_timing_.skip(sync_.missed() + 1);
+  const bool needed =
+      std::any_of(in_order_.begin(), in_order_.end(), [](const NodeLink* node) { return node->needs_sync_; });
+  const bool in_time =
+      sync_.missed() == 0 && now_ - sync_.last_due() <= most_late(parameters_, sync_, sync_timing_, needed);
+  if (parameters_.isochronous && (!in_time || periodic_sync_queued_))
+    return sync_timing_.leave_out(sync_.first_due(), parameters_.sync_period, sync_.missed() + 1);
   if (periodic_sync_queued_ || waits_for_last_sync()) return;
   collect_sdo();
   periodic_sync_queued_ = push_control({sync_frame(), Kind::PeriodicSync, 0, sync_.last_due()});
@@ -117,8 +139,8 @@ void Master::drop_late_sync(HostTime now) {
   if (!parameters_.isochronous || control_.empty()) return;
   const ControlFrame& next = control_.front();
   if (next.kind != Kind::PeriodicSync || now - next.due <= parameters_.sync_period / 2) return;
+  sync_timing_.leave_out(next.due, parameters_.sync_period);
   release_control();
-  sync_timing_.skip(1);
 }
 
 void Master::poll_nodes(HostTime now) {

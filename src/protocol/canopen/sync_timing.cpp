@@ -19,4 +19,13 @@ void SyncTiming::confirm(HostTime due, HostTime end) {
   delay_ = mean;
 }
 
+void SyncTiming::leave_out(HostTime first, HostDuration period, std::uint64_t count) {
+  const HostTime last = first + static_cast<HostDuration::rep>(count - 1) * period;
+  const bool goes_on = first_left_out_ != kNever && first == last_left_out_ + period;
+  const bool goes_before = last == first_left_out_ - period;
+  if (!goes_on) first_left_out_ = first;
+  if (!goes_before) last_left_out_ = last;
+  skipped_ += count;
+}
+
 }  // namespace interpolated_motion::canopen

@@ -71,11 +71,16 @@ const char* Limits::circumstance(HostTime when) const {
   return streams ? " in or after a stream" : "";
 }
 
+bool Limits::is_not_led(const Joint& joint, HostTime when) const {
+  return ledger().has_fault(joint.bus, when, kLostTargets) ||
+         ledger().are_drives_alone(when, joint.target_period);
+}
+
 // Samples are a whole number of sample periods apart by the drive's clock; what the host's clock says besides
 // is the drive's crystal, and the steps of one that follows SYNC.
 void Limits::sample(const Sample& sample) {
   const Joint& joint = arm().joints[sample.joint];
-  if (joint.kind == "cyclic" && ledger().has_fault(joint.bus, sample.time, kLostTargets)) {
+  if (joint.kind == "cyclic" && is_not_led(joint, sample.time)) {
     tracks_[sample.joint] = {};
     return;
   }

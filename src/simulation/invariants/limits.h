@@ -25,6 +25,7 @@ class Limits : public Invariant {
     int known = 0;  ///< samples in a row, up to 2: of how many the velocity is known
   };
 
+  bool is_not_led(const Joint& joint, HostTime when) const;
   const char* circumstance(HostTime when) const;
   void check_position(const Joint& joint, const Sample& sample);
   void check_motion(const Joint& joint, const Track& before, const Track& now);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "simulation/invariant.h"
@@ -8,7 +9,8 @@ namespace interpolated_motion::simulation {
 
 /// Where nothing went wrong from outside, every drive sample of a goal that has succeeded was on its path
 /// within the deviation bound, by the driver's own report, and nothing ran dry or over. A goal that has taken
-/// over in motion has the wider bound of streams.
+/// over in motion has the wider bound of streams. Cyclic drives may go without a target position for each
+/// SYNC that the host was late with.
 class OnCourse : public Invariant {
  public:
   explicit OnCourse(const Ledger& ledger) : Invariant(ledger) {}
@@ -18,8 +20,12 @@ class OnCourse : public Invariant {
   void goal_ended(const GoalEntry& goal) override;
 
  private:
+  void judge(const Look& look);
+  std::uint32_t allowed_underruns(const Joint& joint) const;
+
   motion::GoalId ended_ = 0;
   bool met_motion_ = false;
+  HostTime rested_{};  ///< last seen without a motion under way
 };
 
 }  // namespace interpolated_motion::simulation

@@ -161,6 +161,23 @@ TEST(CyclicGroup, PathTooFastForThePeriodIsRefusedWithTheReason) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+// From a little beside the first point the lead-in lasts no longer than a period: its target positions are a
+// step, and the drive goes beyond the limit of acceleration between them.
+TEST(CyclicGroup, ShortLeadInIsMadeGentler) {
+  for (const double beside : {0.0005, 0.001, 0.004}) {
+    Scenario scenario(six_axis_cyclic("{buses: {can0: {sync_period: 0.02}}}"));
+    ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;
+    std::vector<double> first = scenario.positions();
+    first[0] += beside;
+    std::vector<double> last = first;
+    last[0] += 0.5;
+    const auto accepted = scenario.submit(make_goal({0.0, 2.0}, {first, last}));
+    ASSERT_TRUE(accepted) << beside << ": " << accepted.error().text;
+    EXPECT_EQ(scenario.result_of(accepted.value().id).outcome, GoalOutcome::Succeeded) << beside;
+    EXPECT_NEAR(scenario.positions()[0], last[0], 1e-3) << beside;
+  }
+}
+
 TEST(CyclicGroup, SyncIsWatched) {
   Scenario scenario(six_axis_cyclic());
   ASSERT_TRUE(scenario.run_until_state(GroupState::Idle)) << scenario.snapshot().fault;

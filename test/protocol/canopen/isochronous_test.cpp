@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "interpolated_motion_driver/protocol/canopen/master.h"
 #include "interpolated_motion_driver/protocol/canopen/sync_timing.h"
@@ -29,6 +30,11 @@ class IsochronousMaster : public testing::Test {
   Texts sent_at(HostTime now) {
     master.poll(now);
     return drain(master, now);
+  }
+
+  /// The last row of SYNCs that `of` has left out: when the first and the last were due.
+  static std::pair<HostTime, HostTime> left_out(const Master& of) {
+    return {of.sync_timing().first_left_out(), of.sync_timing().last_left_out()};
   }
 
   /// The last SYNC was on the bus at `time`.
@@ -79,9 +85,108 @@ TEST_F(IsochronousMaster, SyncThatTheBusDidNotTakeInTimeIsDroppedAndOthersGoOn) 
   EXPECT_EQ(sent_at(at_ms(20)), Texts{"080#"});
 }
 
+// The queue of the bus is full for more than a period: neither the SYNC that waits nor the next one is sent.
+TEST_F(IsochronousMaster, SyncBehindOneThatTheBusDidNotTakeIsLeftOutWithIt) {
+  master.poll(at_ms(10));
+  master.poll(at_ms(20));
+  EXPECT_EQ(left_out(master), std::pair(at_ms(20), at_ms(20)));
+  EXPECT_EQ(drain(master, at_ms(21)), Texts{});
+  EXPECT_EQ(left_out(master), std::pair(at_ms(10), at_ms(20)));
+  EXPECT_EQ(master.sync_timing().skipped(), 2u);
+  EXPECT_EQ(sent_at(at_ms(30)), Texts{"080#"});
+}
+
+/// Tolerates 0.5 ms.
+class StrictIsochronousMaster : public IsochronousMaster {
+ protected:
+  static MasterParameters strict() {
+    MasterParameters p = parameters();
+    p.sync_tolerance = microseconds(500);
+    return p;
+  }
+
+  void SetUp() override { strict_.poll(at_ms(0)); }
+
+  bool is_sent_at(HostTime now) {
+    strict_.poll(now);
+    return drain(strict_, now) == Texts{"080#"};
+  }
+
+  Master strict_{"can0", strict()};
+};
+
+TEST_F(StrictIsochronousMaster, SyncWithinTheToleranceIsSent) {
+  EXPECT_TRUE(is_sent_at(at_ms(10) + microseconds(500)));
+  EXPECT_EQ(strict_.sync_timing().skipped(), 0u);
+}
+
+TEST_F(StrictIsochronousMaster, LaterSyncIsLeftOutAndTheNextIsOnTheGrid) {
+  EXPECT_FALSE(is_sent_at(at_ms(10) + microseconds(501)));
+  EXPECT_EQ(strict_.sync_timing().skipped(), 1u);
+  EXPECT_EQ(left_out(strict_), std::pair(at_ms(10), at_ms(10)));
+  EXPECT_EQ(strict_.next_sync_due(), at_ms(20));
+  EXPECT_TRUE(is_sent_at(at_ms(20)));
+}
+
+TEST_F(StrictIsochronousMaster, NotTwoInARow) {
+  EXPECT_FALSE(is_sent_at(at_ms(12)));
+  EXPECT_TRUE(is_sent_at(at_ms(22)));
+  EXPECT_FALSE(is_sent_at(at_ms(32)));
+  EXPECT_TRUE(is_sent_at(at_ms(45)));
+  EXPECT_EQ(strict_.sync_timing().skipped(), 2u);
+}
+
+// A drive that hears every second SYNC only would never be led; a grid that is shifted a little does not
+// matter as much.
+TEST_F(StrictIsochronousMaster, NoneThatANodeNeeds) {
+  strict_.add_node(3);
+  NodeLink& node = strict_.add_node(4);
+  node.set_needs_sync(true);
+  EXPECT_TRUE(is_sent_at(at_ms(12)));
+  EXPECT_TRUE(is_sent_at(at_ms(25)));
+  EXPECT_FALSE(is_sent_at(at_ms(35) + microseconds(1))) << "of the past";
+  node.set_needs_sync(false);
+  EXPECT_TRUE(is_sent_at(at_ms(42)));
+  EXPECT_FALSE(is_sent_at(at_ms(52)));
+}
+
+TEST_F(StrictIsochronousMaster, OneMoreThatIsLaterThanHalfAPeriodIsLeftOutAllTheSame) {
+  EXPECT_FALSE(is_sent_at(at_ms(12)));
+  EXPECT_FALSE(is_sent_at(at_ms(26)));
+  EXPECT_EQ(strict_.sync_timing().skipped(), 2u);
+  EXPECT_EQ(left_out(strict_), std::pair(at_ms(10), at_ms(20)));
+  EXPECT_TRUE(is_sent_at(at_ms(31))) << "and time goes on from there";
+}
+
+TEST_F(StrictIsochronousMaster, AfterAStallOfPeriodsTheFirstSyncMayBeLate) {
+  EXPECT_FALSE(is_sent_at(at_ms(31)));
+  EXPECT_EQ(strict_.sync_timing().skipped(), 3u);
+  EXPECT_EQ(left_out(strict_), std::pair(at_ms(10), at_ms(30)));
+  EXPECT_TRUE(is_sent_at(at_ms(42)));
+}
+
+// A controlword that starts the drives waits in them for the next SYNC, whichever that is.
+TEST_F(StrictIsochronousMaster, StartSignalComesWithTheSyncAfterTheOneLeftOut) {
+  NodeLink& node = strict_.add_node(3);
+  EXPECT_TRUE(node.send_rpdo(2, kData, 2));
+  EXPECT_TRUE(strict_.request_sync(at_ms(9)));
+  EXPECT_EQ(drain(strict_, at_ms(9)), Texts{"303#0102"});
+  EXPECT_FALSE(is_sent_at(at_ms(13)));
+  EXPECT_TRUE(is_sent_at(at_ms(20)));
+}
+
+TEST_F(StrictIsochronousMaster, RefusesAToleranceBeyondThePeriod) {
+  MasterParameters p = strict();
+  for (const HostDuration wrong : {HostDuration(milliseconds(11)), HostDuration(-1)}) {
+    p.sync_tolerance = wrong;
+    EXPECT_THROW(Master("can1", p), std::invalid_argument);
+  }
+}
+
 TEST_F(IsochronousMaster, OnOtherBusesALateSyncIsSent) {
   MasterParameters p = parameters();
   p.isochronous = false;
+  p.sync_tolerance = microseconds(500);
   Master other("can1", p);
   other.poll(at_ms(0));
   other.poll(at_ms(38));

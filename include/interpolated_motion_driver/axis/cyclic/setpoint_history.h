@@ -24,9 +24,20 @@ class SetpointHistory {
   /// `clear()` has been the drive's for ever.
   void add(HostTime stamp, std::int32_t counts);
   void clear() { known_ = false; }
+  /// The drive has not taken those of the SYNCs that were due from `first` to `last`, a period before their
+  /// stamps. Returns how many there were.
+  std::size_t drop(HostTime first, HostTime last);
 
   /// Instant of the newest; HostTime{} before the first.
   HostTime newest() const { return known_ ? targets_[0].stamp : HostTime{}; }
+  /// Instant from which on the drive has been told what it interpolates through now; HostTime{} before the
+  /// first.
+  HostTime oldest_in_use() const {
+    return known_ ? targets_[static_cast<std::size_t>(order_)].stamp : HostTime{};
+  }
+  /// What the drive interpolates through, in the joint's units, with times in s after `origin`. At least one
+  /// must be known.
+  interpolation::CipKnots knots(HostTime origin, const encoding::Transmission& transmission) const;
 
   /// The drive's demand at `when`, not before the newest target position but one: position, velocity and
   /// acceleration in the joint's units. Before the first target position: zeros.
@@ -37,11 +48,16 @@ class SetpointHistory {
     HostTime stamp{};
     std::int32_t counts = 0;
   };
+  /// Some behind those that the drive uses, for it goes on with these when newer ones are dropped.
+  static constexpr std::size_t kKept = 2 * interpolation::kCipHistory;
+
+  /// From number `from` on, takes for the targets what the one before has been for ever.
+  void rest_before(std::size_t from);
 
   int order_;
   HostDuration period_;
   bool known_ = false;
-  std::array<Target, interpolation::kCipHistory> targets_{};  // the newest first
+  std::array<Target, kKept> targets_{};  // the newest first
 };
 
 }  // namespace interpolated_motion::axis

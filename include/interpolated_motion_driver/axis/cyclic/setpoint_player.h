@@ -93,7 +93,8 @@ class SetpointPlayer final : public Player {
   std::uint64_t sent_ = 0;
   std::uint64_t sent_at_load_ = 0;
   std::uint64_t missed_at_load_ = 0;
-  std::uint64_t refused_ = 0;  ///< target positions that the queue of the bus did not take
+  std::optional<AxisReport> report_;  ///< of a motion that has ended: target positions go on at rest
+  std::uint64_t refused_ = 0;         ///< target positions that the queue of the bus did not take
 };
 
 }  // namespace interpolated_motion::axis

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "interpolated_motion_driver/axis/cyclic/setpoint_history.h"
+#include "interpolated_motion_driver/axis/cyclic/way_back.h"
 #include "interpolated_motion_driver/encoding/setpoint_certificate.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/trajectory/path.h"
@@ -18,9 +19,9 @@ namespace interpolated_motion::axis {
 /// interpolates, and it does so through the last few of them: a motion has been played to its end when all of
 /// these are at the end.
 ///
-/// Where the host was too late, the drive has gone on along its polynomial and cannot be called back: the
-/// target positions go on from there, and back to the path within the limits (trajectory::rejoin),
-/// or, in a stop, to rest.
+/// Where the host was too late, or SYNC was left out, the drive has gone on along its polynomial and cannot
+/// be called back: the target positions go on from there, and back to the path within the limits
+/// (way_back()), or, in a stop, to rest.
 class SetpointStream {
  public:
   /// `limits` are what the joint brakes and comes back to its path within: velocity and acceleration must be
@@ -40,6 +41,9 @@ class SetpointStream {
   /// The target position to be sent for the SYNC that is due at `sync`; nothing if there has been one, or if
   /// `sync` is kNever.
   std::optional<std::int32_t> next(HostTime sync);
+  /// The SYNCs that were due from `first` to `last` have not been sent: the drive has not taken the target
+  /// positions that were for them. To be told before the next one is asked for.
+  void leave_out(HostTime first, HostTime last);
 
   /// Instant that the newest target position belongs to.
   HostTime newest() const { return history_.newest(); }
@@ -48,8 +52,13 @@ class SetpointStream {
   trajectory::State newest_motion() const;
   /// Whether the drive has come to the end of the path at `now`.
   bool played(HostTime now) const;
-  /// Instants for which there was no target position, since the host was too late.
+  /// Instants for which the drive got no target position, since the host was too late or SYNC was left out.
   std::uint64_t missed() const { return missed_; }
+  /// Whether the drive interpolates through target positions of its path alone. One that has gone on without
+  /// some, and has not been led back, goes farther astray with each one more that is missing.
+  bool is_led() const {
+    return newest() >= back_at_ + static_cast<int>(interpolation::kCipHistory) * period_;
+  }
   /// Whether the drive has gone so far astray that the limits allow no way back to the path. It goes on as it
   /// went until it is stopped.
   bool astray() const { return astray_; }
@@ -59,7 +68,10 @@ class SetpointStream {
  private:
   GoalTime goal_time(HostTime when) const;
   bool rests_at(GoalTime time) const;
+  bool rests_until(HostTime stamp) const;
   void lay(const trajectory::Path& path, HostTime begin);
+  Departure departure(const trajectory::State& there, HostTime stamp) const;
+  trajectory::Path stop_off_the_path(const trajectory::State& there, HostTime stamp) const;
   void come_back(HostTime stamp);
   void bridge(const trajectory::State& there, HostTime stamp);
   std::int32_t target_at(HostTime stamp) const;

@@ -27,7 +27,10 @@ struct MasterParameters {
   HostDuration heartbeat_period = HostDuration::zero();   ///< of this host; zero: none is sent
   HostDuration heartbeat_timeout = HostDuration::zero();  ///< of the nodes; zero: not monitored
   HostDuration sync_period = HostDuration::zero();        ///< zero: SYNC on request only
-  bool isochronous = false;   ///< SYNC is the time base of drives, see below; needs a sync_period
+  bool isochronous = false;  ///< SYNC is the time base of drives, see below; needs a sync_period
+  /// An isochronous SYNC that is later than this is left out, 0..`sync_period`; zero, and what is more than
+  /// half a period: later than half a period.
+  HostDuration sync_tolerance = HostDuration::zero();
   int time_stamp_period = 0;  ///< every so many SYNCs are followed by their time stamp, 0..1000; 0: none
   std::uint32_t bitrate = 1'000'000;   ///< bit/s, 10000..1000000
   double max_bulk_load = 0.6;          ///< share of the bus for bulk frames, 0.01..1
@@ -57,7 +60,12 @@ struct MasterParameters {
 ///
 /// An `isochronous` bus has drives that take one setpoint per SYNC and interpolate between two of them. A
 /// SYNC off its grid would make them take a setpoint at a wrong instant: there is none on request (the next
-/// periodic one serves), one that is late by more than half a period is left out, and none waits for another.
+/// periodic one serves), and none waits for another. One that the host is late with by more than
+/// `sync_tolerance` is left out: drives go on along their polynomial for one period, and a late one would
+/// shift the grid that they interpolate on. Not two in a row, and none that a node needs
+/// (NodeLink::set_needs_sync); but one that is late by more than half a period, by the host or on a bus that
+/// does not take it, is left out always. sync_timing() tells which; what was sent to be taken with one of
+/// them is not taken.
 ///
 /// Nothing is sent before the bus has been listened to for `listen`, and while another master is heard there:
 /// SYNC and heartbeat begin when it is quiet, and whoever has something to say asks foreign().quiet() before.

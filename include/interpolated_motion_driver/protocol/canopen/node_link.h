@@ -57,6 +57,10 @@ class NodeLink {
   /// waits for all answers before the next periodic SYNC. To be set once, before frames flow.
   void set_sync_answer(int n) { sync_answers_.expect(n); }
 
+  /// While the node needs to be led by what comes with SYNC, none is left out for being a little late
+  /// (MasterParameters::sync_tolerance).
+  void set_needs_sync(bool needs) { needs_sync_ = needs; }
+
   /// NMT command to this node, in the control queue. False when the queue is full.
   bool send_nmt(NmtCommand command);
 
@@ -103,6 +107,7 @@ class NodeLink {
   std::uint64_t emergencies_lost_ = 0;
   TpdoHandler tpdo_handler_;
   SyncAnswers sync_answers_;
+  bool needs_sync_ = false;
   Ring<Frame> records_;
   std::array<Confirmed, kPdosOfNode> confirmed_{};
 };

@@ -26,8 +26,9 @@ class SyncProducer {
 
   /// Instant of the grid for which `poll` returned true last.
   HostTime last_due() const { return next_ - period_; }
-  /// Periods that `poll` skipped then.
+  /// Periods that `poll` skipped then, and the first instant for which it had not returned true before.
   std::uint64_t missed() const { return missed_; }
+  HostTime first_due() const { return last_due() - static_cast<HostDuration::rep>(missed_) * period_; }
 
  private:
   HostDuration period_;
