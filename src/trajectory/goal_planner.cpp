@@ -110,7 +110,8 @@ class PathMaker {
     Knot result = knot_of_point(joint, index);
     if (index != selection_.points.front()) return result;
     if (result.given == KnotData::Position) keep_own_velocity(joint, result);
-    if (selection_.late.count() > 0.0 && result.given == KnotData::Velocity)
+    const bool ends_there = selection_.points.size() == 1;  // at rest, whatever is given
+    if (selection_.late.count() > 0.0 && (ends_there || result.given == KnotData::Velocity))
       result.given = KnotData::Acceleration;
     return result;
   }
