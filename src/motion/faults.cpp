@@ -9,7 +9,14 @@ bool is_out_of_order(const axis::Axis& axis) {
 }
 
 bool is_faulted(const axis::Axis& axis) {
-  return axis.state() == axis::AxisState::FaultStopping || is_out_of_order(axis);
+  switch (axis.state()) {
+    case axis::AxisState::FaultStopping:
+    case axis::AxisState::Fault:
+    case axis::AxisState::Offline:
+      return true;
+    default:
+      return false;
+  }
 }
 
 const axis::Axis* find_faulted(const Axes& axes) {

@@ -102,7 +102,7 @@ TEST(GroupDiagnostics, AFaultIsAnErrorWithItsReason) {
   snapshot.state = motion::GroupState::Fault;
   snapshot.fault = "joint3 is lost";
   DiagnosticStatus status;
-  diagnose_group(snapshot, std::chrono::microseconds(3450), status);
+  diagnose_group(snapshot, std::chrono::microseconds(3460), status);
   EXPECT_EQ(status.level, Level::ERROR);
   EXPECT_EQ(status.message, "joint3 is lost");
   ASSERT_EQ(status.values.size(), 1U);

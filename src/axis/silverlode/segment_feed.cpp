@@ -153,10 +153,13 @@ void SegmentFeed::forget_old_stretches() {
 
 /// Index among `stretches_` of the segment executed at `elapsed`.
 std::size_t SegmentFeed::executing(double elapsed) const {
+  if (stretches_.empty()) return 0;
   const auto tick = static_cast<std::int64_t>(std::floor(elapsed / tick_));
-  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), tick,
-                                      [](std::int64_t t, const Stretch& s) { return t < s.begin; });
-  return after == stretches_.begin() ? 0 : static_cast<std::size_t>(after - stretches_.begin()) - 1;
+  std::size_t i = std::min(executing_, stretches_.size() - 1);
+  while (i + 1 < stretches_.size() && stretches_[i + 1].begin <= tick) ++i;
+  while (i > 0 && stretches_[i].begin > tick) --i;
+  executing_ = i;
+  return i;
 }
 
 std::size_t SegmentFeed::waiting(double elapsed, bool started) const {

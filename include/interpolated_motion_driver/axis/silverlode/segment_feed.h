@@ -145,9 +145,10 @@ class SegmentFeed {
   std::int32_t final_counts_ = 0;
   std::size_t depth_ = 0;
   double tick_ = 0.0;
-  std::deque<Stretch> encoded_;    ///< the segments behind those sent
-  ImsSegment last_;                ///< encoded
-  std::deque<Stretch> stretches_;  ///< of the segments sent, the last ones
+  std::deque<Stretch> encoded_;        ///< the segments behind those sent
+  ImsSegment last_;                    ///< encoded
+  std::deque<Stretch> stretches_;      ///< of the segments sent, the last ones
+  mutable std::size_t executing_ = 0;  ///< when it was asked last: mostly the next answer, or nearly
   std::size_t sent_ = 0;
   std::int64_t end_tick_ = 0;
   std::int64_t waited_ = 0;  ///< ticks before the path
