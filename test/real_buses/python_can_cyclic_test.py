@@ -85,7 +85,11 @@ def test_it_follows_one_target_position_a_sync(client):
     assert all(status & 0x6F == 0x27 for status, _ in reports)
     assert all(status & FOLLOWS for status, _ in reports[5:])
     positions = [position for _, position in reports]
-    assert positions == sorted(positions), 'it never goes back'
+    # This master is late now and then, as the machine has time for it. Then the drive goes on along its polynomial, and comes back by
+    # less than the way of one target position.
+    fastest = 1.875 * WAY / count
+    backward = max(before - after for before, after in zip(positions, positions[1:]))
+    assert backward < fastest, 'it goes back by no more than it went too far'
     assert any(math.isclose(position - start, WAY / 2, abs_tol=WAY / 20) for position in positions), 'it has been on the way'
     assert client.number(POSITION_DEMAND, '<i') == start + WAY
     assert abs(positions[-1] - start - WAY) <= 2
