@@ -155,7 +155,7 @@ def call_services():
 
 
 GENERATORS = {
-    'large_goals': lambda: publish([large_goal()], 1.0),
+    'large_goals': lambda: publish([large_goal()], 0.2),  # each is taken up at once, and is fast enough after 3.2 s
     'commands': publish_refused_commands,
     'services': call_services,
 }
