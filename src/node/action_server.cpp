@@ -9,6 +9,8 @@
 namespace interpolated_motion::node {
 namespace {
 
+Refusal shutting_down() { return {GoalError::InvalidGoal, "The driver is shutting down."}; }
+
 /// Its client has cancelled a goal that was neither accepted nor rejected.
 template <class Handle>
 bool is_cancelled(const Handle& handle) {
@@ -30,7 +32,12 @@ void TrajectoryActionServer::on_goal(Handle handle) {
   const auto ticket = hardware_.submit(to_goal(*handle.getGoal()));
   // Its answer cannot have been handled yet: that is done by this same thread.
   if (ticket) handed_in_.emplace(*ticket, handle);
-  if (!ticket) reject(handle, {GoalError::InvalidGoal, "The driver is shutting down."});
+  if (!ticket) reject(handle, shutting_down());
+}
+
+void TrajectoryActionServer::reject_unanswered() {
+  for (auto& [ticket, handle] : handed_in_) reject(handle, shutting_down());
+  handed_in_.clear();
 }
 
 void TrajectoryActionServer::goal_answered(const hardware::GoalAnswer& answer) {

@@ -161,6 +161,7 @@ int DriverNode::finish() {
   if (!failed_) hardware_->shut_down(kShutdownPatience);
   // What the bus thread has said last: results of goals that the stop has ended, or why it failed.
   command_queue_.callAvailable();
+  action_.reject_unanswered();
   services_.stop();
   halt_.stop();
   publisher_.stop();

@@ -56,6 +56,14 @@ class PlannedMeanwhile : public ::testing::TestWithParam<KindOfArm> {
     return answered.answer ? answered.answer.value().id : 0;
   }
 
+  /// A goal that has moved the arm for so long.
+  motion::GoalId under_way(trajectory::Goal goal, double for_seconds) {
+    const motion::GoalId id = accepted(std::move(goal));
+    EXPECT_TRUE(scenario_.run_until_state(GroupState::Moving));
+    scenario_.run(for_seconds);
+    return id;
+  }
+
   void expect_success(motion::GoalId id) {
     const motion::GoalResult result = scenario_.result_of(id);
     EXPECT_EQ(result.outcome, GoalOutcome::Succeeded) << result.text;
@@ -78,9 +86,7 @@ TEST_P(PlannedMeanwhile, FromRestTheGoalBeginsWhenItIsPlanned) {
 }
 
 TEST_P(PlannedMeanwhile, InMotionTheFormerGoalGoesOnUntilThen) {
-  const auto first = accepted(to(1.0, 2.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(0.4);
+  const auto first = under_way(to(1.0, 2.0), 0.4);
   const HostTime sent = scenario_.now();
   const auto second = accepted(to(-0.5, 6.0));
   EXPECT_GE(scenario_.now() - sent, kPlanning);
@@ -103,9 +109,7 @@ TEST_P(PlannedMeanwhile, AHaltCountsForGoalsSentBefore) {
 }
 
 TEST_P(PlannedMeanwhile, AStopDoesNotWaitForPlanning) {
-  const auto first = accepted(to(1.0, 3.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(0.5);
+  const auto first = under_way(to(1.0, 3.0), 0.5);
   const auto planned = hand_in(to(-1.0, 5.0));
   trajectory::Goal stop = to(0.0, 1.0);
   stop.points.clear();
@@ -151,9 +155,7 @@ TEST_P(PlannedMeanwhile, AGoalIsWithdrawn) {
 }
 
 TEST_P(PlannedMeanwhile, AGoalThatIsRefusedChangesNothing) {
-  const auto first = accepted(to(1.0, 2.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(0.4);
+  const auto first = under_way(to(1.0, 2.0), 0.4);
   hand_in(to(9.0, 2.0));
   const auto refused = answer();
   ASSERT_FALSE(refused.answer);
@@ -163,9 +165,7 @@ TEST_P(PlannedMeanwhile, AGoalThatIsRefusedChangesNothing) {
 }
 
 TEST_P(PlannedMeanwhile, AGoalThatWaitedForRestIsPlannedThere) {
-  const auto first = accepted(to(1.0, 3.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(1.0);
+  const auto first = under_way(to(1.0, 3.0), 1.0);
   driver().cancel(first, scenario_.now());
   const auto second = accepted(to(0.3, 2.0));
   expect_success(second);
@@ -173,9 +173,7 @@ TEST_P(PlannedMeanwhile, AGoalThatWaitedForRestIsPlannedThere) {
 }
 
 TEST_P(PlannedMeanwhile, AHaltCountsForAGoalThatWaitedForRest) {
-  const auto first = accepted(to(1.0, 3.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(1.0);
+  const auto first = under_way(to(1.0, 3.0), 1.0);
   driver().set_planning_time(std::chrono::milliseconds(10));
   driver().cancel(first, scenario_.now());
   const auto second = accepted(to(0.3, 2.0));
@@ -220,9 +218,7 @@ TEST_P(PlannedMeanwhile, SetpointsAreTakenAgainWhenTheGoalHasEnded) {
 // A planner on a thread of its own takes what time it takes: what joins too late is planned once more.
 TEST_P(PlannedMeanwhile, PlanningThatTakesLongerThanAllowedIsDoneAgain) {
   constexpr double kTaken = 0.8;  // s, more than any drive is committed ahead
-  const auto first = accepted(to(1.0, 12.0));
-  ASSERT_TRUE(scenario_.run_until_state(GroupState::Moving));
-  scenario_.run(0.5);
+  const auto first = under_way(to(1.0, 12.0), 0.5);
   std::vector<motion::PlanningPtr> given;
   driver().set_planner([&](motion::PlanningPtr planning) { given.push_back(std::move(planning)); });
   const auto ticket = hand_in(to(-0.5, 12.0));

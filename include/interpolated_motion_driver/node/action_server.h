@@ -32,6 +32,9 @@ class TrajectoryActionServer {
   /// are ignored.
   void goal_ended(const motion::GoalResult& result);
 
+  /// The driver ends: goals that have not been answered are rejected.
+  void reject_unanswered();
+
   /// Tells the client of the goal under way where the joints are, if there is one.
   void publish_feedback();
 
