@@ -18,18 +18,28 @@ constexpr int kLongest = 3;
 /// Share of the line that questions have at least.
 constexpr double kLeastShare = 0.05;
 
+// Written once: at every poll it is asked how long they take.
+
+const silverlode::Request& longest_question() {
+  static const silverlode::Request question =
+      silverlode::rrg_request(kMaxAddress, registers::kActualPosition, registers::kImsTicksLeft,
+                              registers::kProfileAcceleration, registers::kProfileVelocity);
+  return question;
+}
+
+const silverlode::Request& shortest_question() {
+  static const silverlode::Request question = silverlode::rio_request(kMaxAddress);
+  return question;
+}
+
 }  // namespace
 
 HostDuration longest_look_time(const silverlode::LineMaster& line) {
-  return silverlode::real_exchange_time(
-      line, silverlode::rrg_request(kMaxAddress, registers::kActualPosition, registers::kImsTicksLeft,
-                                    registers::kProfileAcceleration, registers::kProfileVelocity));
+  return silverlode::real_exchange_time(line, longest_question());
 }
 
 HostDuration look_time(const silverlode::LineMaster& line) {
-  return (longest_look_time(line) +
-          silverlode::real_exchange_time(line, silverlode::rio_request(kMaxAddress))) /
-         2;
+  return (longest_look_time(line) + silverlode::real_exchange_time(line, shortest_question())) / 2;
 }
 
 HostDuration LookPace::period() const {

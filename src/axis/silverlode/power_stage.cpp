@@ -199,9 +199,10 @@ void SilverlodePowerStage::look_at_drive(HostTime now) {
   if (status_.asking()) return;
   const HostDuration waited = now - status_.asked_at();
   const HostDuration period = look_period();
+  if (waited < period) return;
   const bool in_motion = line_.bulk_waits() || player_->interpolates();
   const HostDuration overdue = in_motion ? pace_.overdue() : kOverdue * period;
-  if (waited < period || (!line_.idle() && waited < overdue)) return;
+  if (!line_.idle() && waited < overdue) return;
   status_.ask(player_->interpolates(), facts_.multi_register, now);
 }
 
