@@ -29,10 +29,6 @@ void HeartbeatConsumer::poll(HostTime now) {
   events_.push_over_oldest(HeartbeatEvent::Lost);
 }
 
-HostTime HeartbeatConsumer::next_deadline() const {
-  return monitoring_ && timeout_ > HostDuration::zero() ? last_heard_ + timeout_ : kNever;
-}
-
 HeartbeatProducer::HeartbeatProducer(std::uint8_t node, HostDuration period)
     : frame_(heartbeat_frame(node, NodeState::Operational)), period_(period) {}
 

@@ -150,7 +150,6 @@ void Master::poll_nodes(HostTime now) {
     node->sdo_.poll(now);
     node->heartbeat_.poll(now);
   }
-  collect_sdo();
 }
 
 HostTime Master::next_deadline() const {

@@ -103,10 +103,6 @@ void SdoClient::begin_block(std::size_t first_segment, unsigned block_size, Host
   deadline_ = now + timeout_;
 }
 
-bool SdoClient::segment_due() const {
-  return state_ == State::BlockDownloadSegments && block_sequence_ < block_size_;
-}
-
 Frame SdoClient::block_segment() {
   const std::size_t index = block_first_ + block_sequence_++;
   const std::size_t offset = index * kSegmentBytes;

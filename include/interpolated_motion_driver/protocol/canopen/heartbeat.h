@@ -36,7 +36,9 @@ class HeartbeatConsumer {
   void poll(HostTime now);
 
   /// When `poll` must be called next; `kNever` when nothing is monitored.
-  HostTime next_deadline() const;
+  HostTime next_deadline() const {
+    return monitoring_ && timeout_ > HostDuration::zero() ? last_heard_ + timeout_ : kNever;
+  }
 
   /// Last state heard; `Unknown` before the first heartbeat and after `Lost`.
   NodeState state() const { return state_; }

@@ -136,7 +136,7 @@ class SdoClient {
   void begin_block(std::size_t first_segment, unsigned block_size, HostTime now);
   void send_block_end(HostTime now);
   Frame block_segment();
-  bool segment_due() const;
+  bool segment_due() const { return state_ == State::BlockDownloadSegments && block_sequence_ < block_size_; }
   std::size_t total_segments() const;
 
   std::uint8_t node_;
