@@ -1,5 +1,7 @@
 #include "interpolated_motion_driver/protocol/cia402/statusword.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace interpolated_motion::cia402 {
@@ -28,8 +30,13 @@ std::string_view to_text(State state) {
   return "unknown state";
 }
 
-State Statusword::state() const {
-  switch (raw & 0x4F) {
+namespace {
+
+constexpr unsigned kStateBits = 0x6F;
+
+/// By the mask 0x4F, then by 0x6F.
+constexpr State state_of(unsigned bits) {
+  switch (bits & 0x4F) {
     case 0x00:
       return State::NotReadyToSwitchOn;
     case 0x40:
@@ -41,7 +48,7 @@ State Statusword::state() const {
     default:
       break;
   }
-  switch (raw & 0x6F) {
+  switch (bits & 0x6F) {
     case 0x21:
       return State::ReadyToSwitchOn;
     case 0x23:
@@ -54,6 +61,18 @@ State Statusword::state() const {
       return State::Unknown;
   }
 }
+
+constexpr std::array<State, kStateBits + 1> make_states() {
+  std::array<State, kStateBits + 1> states{};
+  for (unsigned bits = 0; bits <= kStateBits; ++bits) states[bits] = state_of(bits);
+  return states;
+}
+
+constexpr auto kStates = make_states();
+
+}  // namespace
+
+State Statusword::state() const { return kStates[raw & kStateBits]; }
 
 std::string Statusword::text() const {
   std::string text(to_text(state()));
