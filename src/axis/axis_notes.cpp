@@ -22,8 +22,7 @@ void AxisNotes::add(AxisNote note, HostTime now) {
   notes_.push_back(std::move(note));
 }
 
-std::optional<AxisNote> AxisNotes::take() {
-  if (notes_.empty()) return std::nullopt;
+AxisNote AxisNotes::take_oldest() {
   AxisNote note = std::move(notes_.front());
   notes_.pop_front();
   return note;

@@ -22,9 +22,14 @@ class AxisNotes {
 
   void add(AxisNote note, HostTime now);
   /// The oldest; nothing if there is none.
-  std::optional<AxisNote> take();
+  std::optional<AxisNote> take() {
+    if (notes_.empty()) return std::nullopt;
+    return take_oldest();
+  }
 
  private:
+  AxisNote take_oldest();
+
   std::deque<AxisNote> notes_;
   HostTime second_begin_ = HostTime::min();
   int in_second_ = 0;
