@@ -102,19 +102,18 @@ class Wire {
   int bits_ = 0;
 };
 
+/// From the start of frame, a 0, to the length: as few numbers as possible, whose bytes are pushed as a
+/// whole.
 void push_header(Wire& wire, const canopen::Frame& frame) {
-  const std::uint32_t remote = frame.remote ? 1 : 0;
-  wire.push(0, 1);
+  const std::uint32_t control = (frame.remote ? 1U << 6 : 0U) | (frame.length & 0xFU);
   if (frame.extended) {
-    wire.push((frame.id >> 18) & 0x7FF, 11);
+    wire.push((frame.id >> 18) & 0x7FF, 1 + 11);
     wire.push(3, 2);
     wire.push(frame.id & 0x3FFFF, 18);
-    wire.push(remote << 2, 3);
+    wire.push(control, 3 + 4);
   } else {
-    wire.push(frame.id & 0x7FF, 11);
-    wire.push(remote << 2, 3);
+    wire.push((frame.id & 0x7FF) << 7 | control, 1 + 11 + 3 + 4);
   }
-  wire.push(frame.length, 4);
 }
 
 Wire up_to_data(const canopen::Frame& frame) {

@@ -22,7 +22,8 @@ constexpr int kPdoBits = 64;
 bool is_mapping(std::uint16_t index) { return (index & 0x0200) != 0; }
 bool is_receive(std::uint16_t index) { return index < kTransmitCommunication; }
 
-std::uint64_t mask(int bits) { return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1; }
+/// `bits`: 1..64
+std::uint64_t mask(int bits) { return ~std::uint64_t{0} >> (kPdoBits - bits); }
 
 std::uint64_t load(const canopen::Frame& frame) {
   std::uint64_t data = 0;
