@@ -145,8 +145,8 @@ void DriverNode::announce() {
   }
 }
 
-int DriverNode::run(const volatile std::sig_atomic_t& stop) {
-  const auto running = [&] { return stop == 0 && ros::ok() && !failed_; };
+int DriverNode::run(const std::atomic<bool>& stop) {
+  const auto running = [&] { return !stop && ros::ok() && !failed_; };
   publisher_.start();
   services_.start();
   halt_.start();

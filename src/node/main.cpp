@@ -1,3 +1,4 @@
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -38,9 +39,11 @@ constexpr const char* kNotes =
     "configuration, or\n"
     "a failure; 2: wrong arguments.\n";
 
-volatile std::sig_atomic_t stop_requested = 0;
+/// Set by a signal, or on the thread that answers other nodes.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not wait for a lock");
 
-void request_stop(int /*signal*/) { stop_requested = 1; }
+void request_stop(int /*signal*/) { stop_requested = true; }
 
 int run(const ros::NodeHandle& node) {
   using namespace interpolated_motion::node;
@@ -80,7 +83,7 @@ int main(int argc, char** argv) {
   // With the last node handle ROS ends, and its log with it: this one outlives the message why the driver
   // ends.
   const ros::NodeHandle node("~");
-  interpolated_motion::node::on_shutdown_request([] { stop_requested = 1; });
+  interpolated_motion::node::on_shutdown_request([] { stop_requested = true; });
   const int exit_code = run(node);
   ros::shutdown();
   return exit_code;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <csignal>
 #include <functional>
 #include <memory>
 #include <string>
@@ -31,6 +30,7 @@ namespace interpolated_motion::node {
 
 /// The ROS side of the driver. Its threads:
 /// - the bus thread (HardwareThread) owns drives and buses;
+/// - planning (PlannerThread): goals, one after the other;
 /// - commands: action, `~command`, `~setpoints`, `~query_state` (the caller of run());
 /// - publishing: everything that is published at a rate, and the log;
 /// - services: requests that take seconds; several, so that none waits for another;
@@ -44,7 +44,7 @@ class DriverNode {
 
   /// Serves until `stop` is set, ROS shuts down, or the bus thread fails; then brings the drives to rest and
   /// switches them off. Returns the exit code of the program.
-  int run(const volatile std::sig_atomic_t& stop);
+  int run(const std::atomic<bool>& stop);
 
  private:
   std::unique_ptr<HardwareThread> start_hardware(const LoadedConfiguration& configuration);
