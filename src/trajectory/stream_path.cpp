@@ -161,11 +161,23 @@ Path with_rest(const Path& path, GoalTime duration) {
   return then(path.pieces(), Path({{path.end_time(), path.end_time() + duration, standing}}));
 }
 
+GoalTime rest_begin(const Path& path) {
+  const auto stands = [](const Piece& piece) {
+    const auto& c = piece.polynomial.coefficients;
+    return std::all_of(c.begin() + 1, c.end(), [](double value) { return value == 0.0; });
+  };
+  const auto& pieces = path.pieces();
+  const auto last = std::find_if_not(pieces.rbegin(), pieces.rend(), stands);
+  return last == pieces.rend() ? path.start_time() : last->end;
+}
+
 Path shifted(const Path& path, GoalTime by) {
-  std::vector<Piece> pieces = path.pieces();
-  for (Piece& piece : pieces) {
-    piece.start += by;
+  std::vector<Piece> pieces;
+  pieces.reserve(path.pieces().size());
+  for (Piece piece : path.pieces()) {
+    piece.start = pieces.empty() ? piece.start + by : pieces.back().end;
     piece.end += by;
+    if (piece.end > piece.start) pieces.push_back(piece);  // shorter than rounding leaves nothing of
   }
   return then(std::move(pieces), Path(path.final_position()));
 }

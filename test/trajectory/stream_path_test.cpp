@@ -158,6 +158,19 @@ TEST(Splice, TakesARestThatStartsThereButForRounding) {
   EXPECT_EQ(spliced.sample(at(2.0)).position, 6.7);
 }
 
+// Pieces that are cut where they nearly end are left shorter than a time a second on can tell.
+TEST(Shifted, LeavesOutWhatRoundingLeavesNothingOf) {
+  const GoalTime sliver = at(1.0 + 3e-16);
+  ASSERT_GT(sliver, at(1.0));
+  const Path path({{at(0.5), at(1.0), Polynomial{{0.0, 1.0}}},
+                   {at(1.0), sliver, Polynomial{{0.5, 1.0}}},
+                   {sliver, at(2.0), Polynomial{{0.5, 1.0}}}});
+  const Path later = shifted(path, at(7.0));
+  EXPECT_EQ(later.pieces().size(), 2U);
+  EXPECT_EQ(later.start_time(), at(7.5));
+  EXPECT_EQ(later.sample(at(8.5)).position, 1.0);
+}
+
 TEST(Splice, RestsWhereThePathHasEndedBefore) {
   const Path path({{at(0), at(1), {{0.0, 1.0}}}});
   const Path rest({{at(5), at(6), {{1.0, 2.0}}}});

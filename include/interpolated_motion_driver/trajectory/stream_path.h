@@ -51,6 +51,9 @@ Expected<Path, LimitViolation> stream_path(const State& from, GoalTime start, co
 /// `path`, at rest at its end, and behind it a rest of `duration`.
 Path with_rest(const Path& path, GoalTime duration);
 
+/// When a joint has come to rest for good, in the time of its path.
+GoalTime rest_begin(const Path& path);
+
 /// `path`, `by` later.
 Path shifted(const Path& path, GoalTime by);
 
