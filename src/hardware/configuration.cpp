@@ -118,6 +118,7 @@ Configuration parse_configuration(const YAML::Node& parameters, const UrdfLimits
   c.setpoints = parse_setpoints(reader.map("setpoints"));
   c.stop_trajectory_duration =
       reader.number("stop_trajectory_duration", c.stop_trajectory_duration, 0.0, 60.0);
+  c.speed_ramp = reader.number("speed_ramp", c.speed_ramp, 0.05, 60.0);
   c.allow_partial_joints_goal = reader.boolean("allow_partial_joints_goal", c.allow_partial_joints_goal);
   c.join_late = reader.choice("join", c.join_late, {{"refuse", false}, {"late", true}});
   c.max_start_ahead = reader.number("max_start_ahead", c.max_start_ahead, 1.0, 1e6);

@@ -67,7 +67,7 @@ HostTime GoalDesk::next_deadline() const { return current_ ? current_->done : kN
 
 /// False when there is nothing to begin.
 bool GoalDesk::begin_next(HostTime now) {
-  if (auto planning = group_.take_planning(now)) {
+  if (auto planning = group_.take_planning(allowance_for_own(), now)) {
     current_ = Submission{};
     current_->planning = std::move(planning);
     run(now);
@@ -104,7 +104,8 @@ void GoalDesk::run(HostTime now) {
 
 void GoalDesk::planned(const motion::Planning& planning, HostDuration taken, HostTime now) {
   if (!current_ || current_->planning.get() != &planning) return;
-  seconds_per_point_ = seconds(taken) / std::max(1.0, size_of(*planning.goal));
+  last_planning_ = GoalTime{seconds(taken)};
+  if (planning.goal) seconds_per_point_ = last_planning_.count() / std::max(1.0, size_of(*planning.goal));
   end_plan(now);
   poll(now);
 }
@@ -113,7 +114,7 @@ void GoalDesk::end_plan(HostTime now) {
   motion::Planning& planning = *current_->planning;
   current_->done = kNever;
   if (current_->ticket == 0) {
-    group_.end_waiting(planning, now);
+    own_attempts_ = group_.end_own(planning, now) ? 0 : std::min(own_attempts_ + 1, kAttempts);
     return current_.reset();
   }
   auto answered = group_.end(planning, now);
@@ -135,6 +136,14 @@ std::optional<GoalAnswer> GoalDesk::take_answer() {
   GoalAnswer answer = std::move(answers_.front());
   answers_.pop_front();
   return answer;
+}
+
+/// Of what the group has to plan: what was planned last may have been larger, or smaller.
+GoalTime GoalDesk::allowance_for_own() const {
+  if (!planner_ && planning_time_ == HostDuration{0}) return GoalTime{0.0};
+  const double expected = planner_ ? kMargin * last_planning_.count() : seconds(planning_time_);
+  return GoalTime{(std::min(expected, kFirstAllowance) + kLeastAllowance) *
+                  static_cast<double>(1 << own_attempts_)};
 }
 
 GoalTime GoalDesk::allowance_for(const Submission& submission) const {

@@ -36,6 +36,8 @@ motion::GroupParameters group_parameters(const Configuration& configuration) {
       trajectory::default_tolerances(path, goal, stopped, configuration.constraints.goal_time);
   parameters.settle_timeout = host_duration(configuration.settle_timeout);
   parameters.stream = configuration.setpoints;
+  parameters.speed_ramp = GoalTime{configuration.speed_ramp};
+  parameters.stop_duration = GoalTime{configuration.stop_trajectory_duration};
   parameters.enable_on_start = configuration.enable_on_start;
   return parameters;
 }

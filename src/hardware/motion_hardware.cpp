@@ -127,6 +127,7 @@ void MotionHardware::Implementation::take_notes() {
     while (auto note = axis->take_note())
       log.add(note->is_problem ? Severity::Warning : Severity::Info, std::move(note->text));
   }
+  while (auto note = group->take_note()) log.add(Severity::Warning, std::move(*note));
 }
 
 void MotionHardware::Implementation::follow_group() {
@@ -276,6 +277,11 @@ std::optional<motion::GoalResult> MotionHardware::take_goal_result() {
   auto result = implementation_->group->take_goal_result();
   if (result) implementation_->tap.recorder().ended(implementation_->now, *result);
   return result;
+}
+
+std::optional<Refusal> MotionHardware::order_speed(const motion::SpeedOrder& order, HostTime now) {
+  implementation_->tap.speed(now, order);
+  return implementation_->group->order_speed(order, now);
 }
 
 std::optional<Refusal> MotionHardware::setpoint(const motion::Setpoint& setpoint, HostTime now) {

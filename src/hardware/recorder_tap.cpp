@@ -76,6 +76,13 @@ void RecorderTap::request(HostTime now, motion::RequestKind kind, motion::Reques
   recorder_.order(now, verb_of(kind), fmt::format("request: {}", id));
 }
 
+void RecorderTap::speed(HostTime now, const motion::SpeedOrder& order) {
+  std::string arguments;
+  if (order.override_rate) arguments = fmt::format("override: {}", *order.override_rate);
+  if (order.paused) arguments += fmt::format("{}paused: {}", arguments.empty() ? "" : ", ", *order.paused);
+  recorder_.order(now, "speed", std::move(arguments));
+}
+
 void RecorderTap::look(HostTime now, const motion::Group& group,
                        const std::vector<std::unique_ptr<BusLink>>& links) {
   if (now < next_look_) return;

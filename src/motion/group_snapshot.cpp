@@ -60,39 +60,40 @@ void copy_status(const axis::AxisStatus& from, JointSnapshot& to) {
 }  // namespace
 
 void Group::snapshot(HostTime now, Snapshot& out) const {
+  const Axes& axes = drives_.axes();
   out.time = now;
-  out.state = state_;
+  out.state = drives_.state();
   out.fault = fault_;
-  out.active_goal = active_ ? active_->id : 0;
-  out.goal_time = active_ ? axes_.front()->playback(now) - active_->zero : GoalTime{0.0};
-  out.goal_duration = active_ ? active_->duration : GoalTime{0.0};
-  out.setpoints = stream_.counters;
-  out.joints.resize(axes_.size());
+  goals_.execution().fill(now, out);
+  out.setpoints = stream_.counters();
+  out.joints.resize(axes.size());
   axis::AxisStatus status;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     JointSnapshot& joint = out.joints[i];
-    const axis::AxisFeedback& feedback = axes_[i]->feedback();
-    joint.joint = axes_[i]->joint();
-    joint.bus = axes_[i]->bus();
+    const axis::AxisFeedback& feedback = axes[i]->feedback();
+    joint.joint = axes[i]->joint();
+    joint.bus = axes[i]->bus();
     joint.unit = parameters_.rules.limits[i].unit;
     joint.actual = {feedback.position, feedback.velocity, 0.0};
-    joint.desired = desired(i, feedback.time);
-    axes_[i]->status(now, status);
+    joint.desired = drives_.desired(i, feedback.time);
+    axes[i]->status(now, status);
     copy_status(status, joint);
   }
 }
 
 MotionReport Group::report() const {
+  const Axes& axes = drives_.axes();
+  const auto& last = drives_.last();
   MotionReport report;
-  if (!last_) return report;
+  if (!last) return report;
   report.valid = true;
-  report.goal = last_->goal;
-  report.duration = last_->duration;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const axis::AxisReport figures = axes_[i]->report();
+  report.goal = last->goal;
+  report.duration = last->duration;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const axis::AxisReport figures = axes[i]->report();
     JointReport joint;
-    joint.joint = axes_[i]->joint();
-    joint.bus = axes_[i]->bus();
+    joint.joint = axes[i]->joint();
+    joint.bus = axes[i]->bus();
     joint.unit = parameters_.rules.limits[i].unit;
     joint.records_sent = figures.records_sent;
     joint.minimum_fill = figures.minimum_fill;

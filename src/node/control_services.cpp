@@ -14,7 +14,7 @@ constexpr HostDuration kPatience = std::chrono::seconds(15);
 
 ControlServices::ControlServices(ros::NodeHandle node, ros::NodeHandle halt_node, HardwareThread& hardware,
                                  const hardware::RecorderConfiguration& recorder)
-    : hardware_(hardware), recordings_(node, hardware, recorder) {
+    : hardware_(hardware), speed_(node, hardware), recordings_(node, hardware, recorder) {
   enable_ = node.advertiseService("enable", &ControlServices::enable, this);
   reset_faults_ = advertise_trigger(node, "reset_faults",
                                     [](auto& drives, HostTime now) { return drives.reset_faults(now); });

@@ -1,6 +1,7 @@
 #include "simulation/ledger.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,8 @@ constexpr double kRequest = 3.0;
 /// What a fault may add: a drive that is away for up to 2 s and has to be configured anew, and repeats on its
 /// bus.
 constexpr double kDisturbed = 8.0;
+/// What a pause or another speed may add.
+constexpr double kSlowedDown = 120.0;
 /// Until an answer that is overdue has been noticed.
 constexpr HostDuration kUntilNoticed = std::chrono::milliseconds(100);
 
@@ -22,7 +25,15 @@ constexpr HostDuration kUntilNoticed = std::chrono::milliseconds(100);
 
 double Ledger::patience() const { return disturbed_ ? kDisturbed + arm_.commit_horizon : 0.0; }
 
+void Ledger::slow_down() {
+  if (std::exchange(slowed_down_, true)) return;
+  for (auto& [id, goal] : goals_) {
+    if (goal.ended_by.empty()) goal.due += host_duration(kSlowedDown);
+  }
+}
+
 void Ledger::accept(motion::GoalId id, GoalEntry entry) {
+  if (slowed_down_) entry.due += host_duration(kSlowedDown);
   entry.due += host_duration(patience() + (entry.met_motion ? arm_.commit_horizon : 0.0));
   goals_[id] = std::move(entry);
 }

@@ -58,6 +58,8 @@ class Ledger {
   /// `verb` ends what is under way.
   void interrupt(const std::string& verb, HostTime now);
   void interrupt(motion::GoalId id, const std::string& verb, HostTime now);
+  /// Goals take longer than they were sent for, or wait, from now on.
+  void slow_down();
   void request(motion::RequestId id, const std::string& verb, HostTime now);
   /// Of an answer: nothing, or why it is none that may come.
   std::optional<std::string> take(const motion::GoalResult& result);
@@ -92,6 +94,8 @@ class Ledger {
   bool has_open_goal() const;
   /// A request that may still be answered in time.
   bool has_open_request(HostTime now) const;
+  /// Goals may be paused, or have been.
+  bool is_slowed_down() const { return slowed_down_; }
   /// Something went wrong from outside: a fault, or the host was away for longer than must go unnoticed.
   bool is_disturbed() const { return disturbed_; }
   /// The joint or its bus had a fault within the last `within` s; ever, when nothing is given.
@@ -117,6 +121,7 @@ class Ledger {
   std::vector<Absence> absences_;
   std::size_t setpoints_ = 0;
   bool disturbed_ = false;
+  bool slowed_down_ = false;
   HostTime died_ = kNever;
 };
 

@@ -200,7 +200,12 @@ bool Replay::obey(const RecordedOrder& order) {
     return driver_->inject(arguments["target"].as<std::string>(), arguments["command"].as<std::string>(),
                            &reason, now_);
   }
-  if (order.verb == "cancel") {
+  if (order.verb == "speed") {
+    motion::SpeedOrder speed;
+    if (arguments["override"]) speed.override_rate = arguments["override"].as<double>();
+    if (arguments["paused"]) speed.paused = arguments["paused"].as<bool>();
+    driver_->order_speed(speed, now_);
+  } else if (order.verb == "cancel") {
     driver_->cancel(goals_[arguments["goal"].as<motion::GoalId>()], now_);
   } else if (order.verb == "absence") {
     const HostTime until = recording::parse_time(arguments["until"].as<std::string>()) + shift_;

@@ -10,7 +10,8 @@ namespace interpolated_motion::simulation {
 /// docs/simulation.md tells.
 struct Event {
   double time = 0.0;  ///< s, on the script's clock
-  std::string verb;   ///< goal, stop, cancel, halt, clear, enable, disable, reset, stream, late, die, inject
+  std::string
+      verb;  ///< goal, stop, cancel, halt, clear, enable, disable, reset, speed, stream, late, die, inject
   std::map<std::string, double> numbers;
   std::string target;   ///< of inject: a joint or a bus
   std::string command;  ///< of inject, see hardware/fault_injection.h

@@ -119,6 +119,26 @@ void let_planning_take_time(std::uint64_t seed, Script& script) {
   }
 }
 
+/// In some histories goals are paused and gone along at other speeds; at the end as they were sent. Drawn
+/// apart, too.
+void change_speeds(std::uint64_t seed, Script& script) {
+  constexpr std::uint64_t kApart = 0xD1B54A32D192ED03U;
+  Random random(seed ^ kApart);
+  if (random.chance(0.7) || script.events.empty()) return;
+  const double end = script.events.back().time + 1.0;
+  const auto add = [&script](double time, double rate, bool paused) {
+    Event speed = event_at(time, "speed");
+    speed.numbers["override"] = rate;
+    speed.numbers["paused"] = paused ? 1.0 : 0.0;
+    script.events.push_back(speed);
+  };
+  for (int changes = random.whole(1, 8); changes > 0; --changes) {
+    const double rate = random.chance(0.1) ? 0.0 : random.thousandths(0.2, 2.0);
+    add(random.thousandths(0.0, end), rate, random.chance(0.3));
+  }
+  add(end, 1.0, false);
+}
+
 }  // namespace
 
 Script random_script(std::uint64_t seed, const std::string& kind) {
@@ -130,6 +150,7 @@ Script random_script(std::uint64_t seed, const std::string& kind) {
   script.at_once = random.chance(0.1);
   add_events(random, read_arm(script.configuration), script);
   let_planning_take_time(seed, script);
+  change_speeds(seed, script);
   // A script's time is written in thousandths, so that its text is the script.
   for (Event& event : script.events)
     event.time = static_cast<double>(static_cast<long>(event.time * 1000.0)) / 1000.0;

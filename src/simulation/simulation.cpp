@@ -178,6 +178,11 @@ void Simulation::carry_out(const Event& event) {
     const motion::GoalId newest = ledger_.goals().rbegin()->first;
     ledger_.interrupt(newest, event.verb, now_);
     driver_->cancel(newest, now_);
+  } else if (event.verb == "speed") {
+    ledger_.slow_down();
+    if (const auto refused =
+            driver_->order_speed({event.number("override"), event.number("paused") != 0.0}, now_))
+      say("speed refused: " + refused->text);
   } else if (event.verb == "die") {
     ledger_.die(now_);
     host_is_there_ = false;

@@ -8,6 +8,7 @@ namespace {
 
 /// When the nominal time of `piece` is `nominal`, between its start and `end`, by which it is reached.
 GoalTime within(const TimeLaw::Piece& piece, GoalTime end, GoalTime nominal) {
+  if (nominal <= piece.begin.nominal) return piece.start;
   if (piece.is_steady()) return piece.start + (nominal - piece.begin.nominal) / piece.begin.rate;
   constexpr int kHalvings = 60;  // of a piece of any length to less than rounding
   GoalTime before = piece.start;

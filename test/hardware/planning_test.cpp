@@ -215,6 +215,25 @@ TEST_P(PlannedMeanwhile, SetpointsAreTakenAgainWhenTheGoalHasEnded) {
   EXPECT_FALSE(stream(1.0));
 }
 
+// The drives of a stream that has just begun still stand when planning begins, and move when it ends.
+TEST_P(PlannedMeanwhile, AStreamBegunMeanwhileIsJoined) {
+  hand_in(to(0.5, 3.0));
+  motion::Setpoint setpoint;
+  for (int i = 1; i <= 6; ++i) setpoint.joint_names.push_back("joint" + std::to_string(i));
+  setpoint.source = "test";
+  std::optional<hardware::GoalAnswer> answered;
+  for (int i = 0; i < 200 && !answered; ++i) {
+    setpoint.time = scenario_.now();
+    setpoint.positions = std::vector<double>(6, 0.003 * i);
+    driver().setpoint(setpoint, scenario_.now());
+    scenario_.run(0.02);
+    answered = driver().take_goal_answer();
+  }
+  ASSERT_TRUE(answered && answered->answer);
+  expect_success(answered->answer.value().id);
+  expect_at(0.5);
+}
+
 // A planner on a thread of its own takes what time it takes: what joins too late is planned once more.
 TEST_P(PlannedMeanwhile, PlanningThatTakesLongerThanAllowedIsDoneAgain) {
   constexpr double kTaken = 0.8;  // s, more than any drive is committed ahead

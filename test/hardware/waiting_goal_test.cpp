@@ -101,6 +101,17 @@ TEST_P(WaitingGoal, SentWhileTheArmBrakesGoesWithoutItsFirstPoint) {
   EXPECT_FALSE(scenario_.submit(elsewhere));  // at rest it is told
 }
 
+// Where the joints come to rest is not known then, and from outside a joint may move in: but this goal ends
+// there.
+TEST_P(WaitingGoal, BeyondALimitIsRefusedWhileTheArmBrakes) {
+  move(1.0);
+  scenario_.driver().halt(scenario_.now());
+  ASSERT_EQ(scenario_.state(), GroupState::Stopping);
+  const auto beyond = scenario_.submit(make_goal({1.0}, {std::vector<double>(6, 9.0)}));
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().text.find("position"), std::string::npos) << beyond.error().text;
+}
+
 // Within the limits, but with steps of acceleration at both ends: more than a cyclic drive makes smooth.
 TEST_P(WaitingGoal, GetsAWayThatItsDrivesCanFollow) {
   move(1.0);

@@ -54,6 +54,13 @@ TEST(TimeLaw, NeverComesBehindAPause) {
               1e-3);  // it comes there with rate 0: to the 1e-9 in its nominal time
 }
 
+TEST(TimeLaw, BeginsWithAPauseWhereItBegins) {
+  TimeLaw law(0.0, GoalTime{0.0}, GoalTime{0.7});
+  law.bend(GoalTime{0.0}, 0.0, 2.0);
+  law.settle(GoalTime{1.0}, 1.0);
+  EXPECT_EQ(law.when(GoalTime{0.7})->count(), 0.0);
+}
+
 TEST(TimeLaw, ForgetsWhatIsOver) {
   TimeLaw law = slower();
   const TimeLaw whole = law;

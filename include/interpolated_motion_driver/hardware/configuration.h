@@ -31,9 +31,10 @@ struct Configuration {
   std::vector<BusConfiguration> buses;     ///< in the order of the parameters
   std::vector<DriveConfiguration> drives;  ///< in the order of `joints`
   ConstraintConfiguration constraints;     ///< where a goal has no tolerances of its own
-  /// s, 0..60; accepted for joint_trajectory_controller's sake and without effect: drives stop by their own
-  /// deceleration.
+  /// s, 0..60: a goal that is cancelled comes to rest on its path in so long, or in what the limits allow; 0:
+  /// as quickly as the drives brake, off its path.
   double stop_trajectory_duration = 0.0;
+  double speed_ramp = 0.3;  ///< s in which the speed of a goal changes by 1 where the limits allow it
   bool allow_partial_joints_goal = false;  ///< goals may leave joints out, which then stay where they are
   bool join_late = false;                  ///< a first point that cannot be reached in time is met later
   double max_start_ahead = 3600.0;         ///< s from now to a goal's stamp; one further ahead is refused

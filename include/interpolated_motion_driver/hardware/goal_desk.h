@@ -69,6 +69,7 @@ class GoalDesk {
   void end_plan(HostTime now);
   void answer(const Submission& submission, Expected<motion::GoalAcceptance, Refusal> answer);
   GoalTime allowance_for(const Submission& submission) const;
+  GoalTime allowance_for_own() const;
 
   motion::Group& group_;
   Planner planner_;
@@ -77,6 +78,8 @@ class GoalDesk {
   std::optional<Submission> current_;
   std::optional<Submission> waiting_;
   double seconds_per_point_ = 0.0;  ///< that planning took lately
+  GoalTime last_planning_{0.0};     ///< what it took last
+  int own_attempts_ = 0;            ///< at what the group has to plan
   std::deque<GoalAnswer> answers_;
 };
 

@@ -13,6 +13,7 @@
 #include "interpolated_motion_driver/hardware/wire_observer.h"
 #include "interpolated_motion_driver/motion/results.h"
 #include "interpolated_motion_driver/motion/snapshot.h"
+#include "interpolated_motion_driver/motion/speed_control.h"
 #include "interpolated_motion_driver/recording/recording.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/units/expected.h"
@@ -89,6 +90,10 @@ class MotionHardware {
   void cancel(motion::GoalId goal, HostTime now);
   /// The next goal that has ended, oldest first.
   std::optional<motion::GoalResult> take_goal_result();
+
+  /// From now on goals are gone along so fast, the one under way too; a pause where that is 0. Or why not.
+  /// What becomes of it is in the snapshot, and what the limits do not allow in the log.
+  std::optional<Refusal> order_speed(const motion::SpeedOrder& order, HostTime now);
 
   /// Takes a setpoint of a stream, or says why not: the arm follows the stream a fixed delay behind it, and
   /// comes to rest within its limits when the stream ends. A goal replaces a stream as it replaces a goal.

@@ -32,6 +32,7 @@ class RecorderTap {
   void log(HostTime now, const LogEntry& entry);
   /// The group has been asked for something.
   void request(HostTime now, motion::RequestKind kind, motion::RequestId id);
+  void speed(HostTime now, const motion::SpeedOrder& order);
   /// The driver, which was to be called until `due`, is called at `now`: an absence of the host if that is
   /// much later.
   void note_call(HostTime due, HostTime now);

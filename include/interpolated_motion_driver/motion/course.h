@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "interpolated_motion_driver/motion/timed_paths.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/trajectory/time_law.h"
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::motion {
@@ -15,12 +17,15 @@ namespace interpolated_motion::motion {
 class Course {
  public:
   /// Another motion: nothing of the former is left.
-  void begin(std::vector<trajectory::Path> paths);
+  void begin(TimedPaths paths);
   /// The same motion with other paths, the same as before up to an instant that is still to come.
-  void change(std::vector<trajectory::Path> paths);
+  void change(TimedPaths paths);
 
-  /// One path per joint, in the order of the configuration; none before the first motion.
-  const std::vector<trajectory::Path>& paths() const { return paths_; }
+  /// What is executed: one path per joint, in the order of the configuration; none before the first motion.
+  const std::vector<trajectory::Path>& paths() const { return timed_.executed; }
+  /// What stands behind it.
+  const TimedPaths& timed() const { return timed_; }
+  const trajectory::TimeLaw& law() const { return timed_.law; }
   /// Counts the motions begun, and all changes of paths().
   std::uint64_t motion() const { return motion_; }
   std::uint64_t revision() const { return revision_; }
@@ -34,7 +39,7 @@ class Course {
                           const trajectory::Path& tail) const;
 
  private:
-  std::vector<trajectory::Path> paths_;
+  TimedPaths timed_;
   std::uint64_t motion_ = 0;
   std::uint64_t revision_ = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,11 +9,12 @@
 
 #include "interpolated_motion_driver/axis/bus_watch.h"
 #include "interpolated_motion_driver/axis/tail.h"
+#include "interpolated_motion_driver/motion/timed_paths.h"
 #include "interpolated_motion_driver/trajectory/goal.h"
 #include "interpolated_motion_driver/trajectory/goal_planner.h"
 #include "interpolated_motion_driver/trajectory/goal_rules.h"
-#include "interpolated_motion_driver/trajectory/path.h"
 #include "interpolated_motion_driver/trajectory/polynomial.h"
+#include "interpolated_motion_driver/trajectory/speed_change.h"
 #include "interpolated_motion_driver/units/refusal.h"
 #include "interpolated_motion_driver/units/time.h"
 
@@ -20,12 +22,13 @@ namespace interpolated_motion::motion {
 
 using GoalPtr = std::shared_ptr<const trajectory::Goal>;
 
-/// A goal between its sender and the drives: all that planning it needs, copied by Group::begin() on the
-/// thread that owns the buses, and what comes out of it. Nothing of the group is touched meanwhile, so run()
-/// may take as long as it takes, on any thread; Group::end() then takes the result, if it still fits.
+/// A goal, or another speed of the one under way, between who wishes for it and the drives: all that planning
+/// it needs, copied by Group::begin() on the thread that owns the buses, and what comes out of it. Nothing of
+/// the group is touched meanwhile, so run() may take as long as it takes, on any thread; Group::end() then
+/// takes the result, if it still fits.
 class Planning {
  public:
-  /// How the goal begins.
+  /// How the motion begins.
   enum class Entry {
     FromRest,  ///< where the drives rest
     Join,      ///< behind what the drives are committed to
@@ -41,13 +44,20 @@ class Planning {
     axis::TailEncoderPtr encoder;
   };
 
-  /// Of a goal that joins.
+  /// Of what joins.
   struct JoinPart {
-    GoalTime join{0.0};                   ///< goal time of the course from which on it is the goal's
-    GoalTime present{0.0};                ///< goal time of the course when planning began
-    GoalTime kept{0.0};                   ///< what is older need not be remembered
-    GoalTime linger{0.0};                 ///< rest behind the goal before the drives leave
-    std::vector<trajectory::Path> paths;  ///< of the course
+    GoalTime join{0.0};     ///< goal time of the course from which on it is another one
+    GoalTime present{0.0};  ///< goal time of the course when planning began
+    GoalTime kept{0.0};     ///< what is older need not be remembered
+    GoalTime linger{0.0};   ///< rest behind the motion before the drives leave
+    TimedPaths course;
+  };
+
+  /// Of a motion that goes on at another speed.
+  struct MotionPart {
+    std::vector<trajectory::Path> nominal;
+    GoalTime reached{0.0};  ///< nominal time, of a motion that has been paused and begins from rest
+    GoalTime end{0.0};      ///< nominal time at which all joints stand
   };
 
   /// What was so when planning began: what is found later fits if it still is.
@@ -55,36 +65,47 @@ class Planning {
     std::uint64_t orders = 0;    ///< see Group::premises()
     std::uint64_t states = 0;    ///< entered by the group
     std::uint64_t revision = 0;  ///< of the course
+    std::uint64_t speeds = 0;    ///< asked for
   };
 
-  /// Plans, certifies and encodes the goal for all drives, and checks what their buses can carry. Once.
+  /// Plans, certifies and encodes the motion for all drives, and checks what their buses can carry. Once.
   void run();
+  /// Whether the motion is not to begin before its speed is more than 0: there are no tails.
+  bool is_paused() const { return entry != Entry::Join && speed.rate == 0.0; }
 
   // Given.
 
   Entry entry = Entry::FromRest;
-  GoalPtr goal;
+  GoalPtr goal;             ///< null: `motion` goes on at another speed
+  trajectory::Speed speed;  ///< to be gone along with
   trajectory::GoalRules rules;
-  std::vector<trajectory::State> present;  ///< where the goal begins, per joint
+  std::vector<trajectory::State> present;  ///< where the motion begins, per joint, in nominal time
   HostTime now{};                          ///< when it begins
   std::vector<AxisPart> axes;
   JoinPart joining;
+  MotionPart motion;
   Premises premises;
 
   // Found.
 
-  std::optional<Refusal> refusal;  ///< why the goal is not possible; then nothing below is set
-  trajectory::GoalPlan plan;
-  std::vector<axis::TailPtr> tails;     ///< of each axis
-  std::vector<trajectory::Path> paths;  ///< of a goal that joins: the course with it
-  GoalTime end{0.0};  ///< of a goal that joins: when all joints stand, goal time of the course
+  std::optional<Refusal> refusal;    ///< why it is not possible; then nothing below is set
+  trajectory::GoalPlan plan;         ///< of a goal
+  std::vector<axis::TailPtr> tails;  ///< of each axis
+  TimedPaths course;                 ///< of what joins: the whole course with it
+  GoalTime end{0.0};                 ///< when all joints stand, nominal time of the course
 
  private:
   std::optional<Refusal> plan_from_rest();
+  std::optional<Refusal> plan_resume();
   std::optional<Refusal> plan_join();
+  std::optional<Refusal> plan_goal_to_join();
+  std::optional<Refusal> encode_at_speed(GoalTime from);
+  std::optional<Refusal> encode();
   bool try_later();
-  std::optional<Refusal> encode(const std::vector<trajectory::Path>& course);
-  std::vector<trajectory::Path> course_with_goal() const;
+  std::vector<trajectory::Path> nominal_with_goal(GoalTime join) const;
+  std::vector<trajectory::Path> executed() const;
+  trajectory::Path executed_from_rest(std::size_t joint) const;
+  trajectory::Path executed_behind_join(std::size_t joint) const;
 };
 
 using PlanningPtr = std::shared_ptr<Planning>;

@@ -91,15 +91,24 @@ enum class GroupState {
 /// The name in lower case, such as "preparing".
 const char* to_string(GroupState state);
 
+/// How fast goals are gone along.
+struct SpeedSnapshot {
+  double override_rate = 1.0;  ///< as asked for, 0 .. 2
+  bool paused = false;         ///< goals stand still, whatever the override
+  double rate = 1.0;  ///< of the active goal at this instant; while nothing moves, what goals begin with
+};
+
 /// One consistent view of the whole driver.
 struct Snapshot {
   HostTime time{};                          ///< at which all this was so
   GroupState state = GroupState::Starting;  ///< as of `time`
   std::string fault;                        ///< why the group is in Fault; empty otherwise
   GoalId active_goal = 0;                   ///< 0 when none
-  GoalTime goal_time{0.0};      ///< of the active goal, on the play-back clock; time_from_start of `desired`
+  /// Of the active goal, as at speed 1, on the play-back clock; time_from_start of `desired`.
+  GoalTime goal_time{0.0};
   GoalTime goal_duration{0.0};  ///< of the active goal, without its lead-in
-  StreamCounters setpoints;     ///< since the driver was started
+  SpeedSnapshot speed;
+  StreamCounters setpoints;           ///< since the driver was started
   std::vector<JointSnapshot> joints;  ///< in the order of the configuration
   std::vector<BusSnapshot> buses;     ///< in the order of the configuration
 };

@@ -9,12 +9,13 @@
 
 #include "interpolated_motion_driver/node/hardware_thread.h"
 #include "interpolated_motion_driver/node/recording_writer.h"
+#include "interpolated_motion_driver/node/speed_interface.h"
 
 namespace interpolated_motion::node {
 
 /// The services that change the state of the drives: `~enable`, `~reset_faults`, `~halt` and
 /// `~clear_buffers`. Each answers when it is done, which takes seconds; so they are served by threads of
-/// their own, and `~halt` by threads that serve nothing else.
+/// their own, and `~halt` by threads that serve nothing else. And those that change the speed of motion.
 class ControlServices {
  public:
   /// Advertises below the name of `node`. `~halt` is served by the queue of `halt_node`, the others by that
@@ -36,6 +37,7 @@ class ControlServices {
   ros::ServiceServer reset_faults_;
   ros::ServiceServer halt_;
   ros::ServiceServer clear_buffers_;
+  SpeedInterface speed_;
   RecordingWriter recordings_;
 };
 

@@ -55,7 +55,8 @@ void PublishedIsTrue::look(const Look& look) {
                      snapshot.fault));
   const bool has_goal = snapshot.state == GroupState::Preparing || snapshot.state == GroupState::Moving ||
                         snapshot.state == GroupState::Settling;
-  const bool may_have = has_goal || snapshot.state == GroupState::Stopping;
+  const bool is_paused = snapshot.state == GroupState::Idle && ledger().is_slowed_down();
+  const bool may_have = has_goal || is_paused || snapshot.state == GroupState::Stopping;
   if ((has_goal && snapshot.active_goal == 0) || (!may_have && snapshot.active_goal != 0))
     fail(
         fmt::format("state {} with active goal {}", motion::to_string(snapshot.state), snapshot.active_goal));
@@ -90,8 +91,9 @@ void DesiredIsSmooth::look(const Look& look) {
                      joint.label(), jump, motion::to_string(state_), motion::to_string(snapshot.state)));
   }
   // An order may be carried out before the first reports are read that have come meanwhile: then another
-  // state is published, and of the old reports what belongs to it.
-  const bool has_read = look.now > ledger().last_absence();
+  // state is published, and of the old reports what belongs to it. Drives that brake tell where they are a
+  // while later.
+  const bool has_read = seconds(look.now - ledger().last_absence()) > kAge;
   was_away_ = was_away_ && (!has_read || is_as_before(snapshot));
   if (!was_away_) time_ = look.now;
   desired_.resize(snapshot.joints.size());
