@@ -150,6 +150,15 @@ Refusal beyond_bound(const SetpointEncoding& encoding, const SetpointCertificate
                       found.worst_deviation, encoding.bound_counts)};
 }
 
+Refusal beyond_stream_bound(const SetpointEncoding& encoding, const SetpointCertificate& found) {
+  return {GoalError::InvalidGoal,
+          fmt::format("Joint '{}': on the way to the setpoint, with a target position each {:.0f} ms, the "
+                      "drive would be {:.2f} counts off the path, more than stream_deviation_bound allows "
+                      "({}). Use a shorter sync_period, smoother or slower setpoints, or a larger bound.",
+                      encoding.joint, encoding.period.count() * 1e3, found.worst_deviation,
+                      encoding.bound_counts)};
+}
+
 Refusal beyond_acceleration(const SetpointEncoding& encoding, double found) {
   return {GoalError::InvalidGoal,
           fmt::format(
@@ -191,6 +200,18 @@ Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, co
   return worst;
 }
 
+Expected<SetpointCertificate, Refusal> certify_stream_from(GoalTime first, const trajectory::Path& path,
+                                                           const SetpointEncoding& encoding) {
+  validate(encoding);
+  SetpointCertificate worst;
+  Execution execution(path, encoding, first);
+  while (execution.next() < path.end_time() + kCipHistory * encoding.period) {
+    if (!execution.advance(worst)) return beyond_range(encoding, execution.next());
+  }
+  if (worst.worst_deviation > encoding.bound_counts) return beyond_stream_bound(encoding, worst);
+  return worst;
+}
+
 double demand_acceleration(const trajectory::Path& path, GoalTime first, const SetpointEncoding& encoding) {
   AccelerationWatch watch(encoding);
   PathSweep setpoints(path);
@@ -219,6 +240,22 @@ double demand_acceleration(interpolation::CipKnots known, GoalTime next, GoalTim
     watch.take(demand(), (next - encoding.period).count() - known[1].time);
   }
   return watch.worst();
+}
+
+double demand_departure(interpolation::CipKnots known, GoalTime next, GoalTime until,
+                        const trajectory::Path& way_on, const trajectory::Path& path,
+                        const SetpointEncoding& encoding) {
+  double worst = 0.0;
+  PathSweep wanted(path);
+  for (GoalTime time{known[0].time}; next <= until; next += encoding.period) {
+    const CipPolynomial demand = interpolation::cip_polynomial_through(encoding.order, known);
+    for (; time < next - encoding.period; time += encoding.servo_period)
+      worst = std::max(worst, std::abs(demand.value(time.count() - known[1].time) - wanted.position(time)));
+    std::copy_backward(known.begin(), known.end() - 1, known.end());
+    const std::int32_t counts = setpoint_at(way_on, encoding.transmission, next);
+    known[0] = {next.count(), encoding.transmission.joint_position(counts)};
+  }
+  return worst * std::abs(encoding.transmission.counts_per_radian());
 }
 
 std::optional<AccelerationPeak> find_acceleration_beyond(const trajectory::Path& before, GoalTime known,

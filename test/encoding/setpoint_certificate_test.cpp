@@ -274,5 +274,29 @@ TEST(SetpointCertificate, AccelerationBeyondTheLargestIsRefused) {
   EXPECT_TRUE(certify_setpoints(path, e)) << "a line has steps in velocity by nature";
 }
 
+// On a line between two target positions of a parabola the drive is a T^2 / 8 off in the middle: at 8 rad/s^2
+// and 20 ms 400 counts of 1e6, of which rounding takes or adds half a one.
+TEST(StreamCertificate, IsThatOfTheChordOfADriveOnLines) {
+  SetpointEncoding e = encoding(1e6, 0.020);
+  e.order = 1;
+  const trajectory::Path parabola = piece(1.0, {{0.0, -4.0, 4.0}});
+  const auto found = certify_stream_from(GoalTime{0.0}, parabola, e);
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_NEAR(found.value().worst_deviation, 400.0, 1.0);
+  e.bound_counts = 398.0;
+  const auto refused = certify_stream_from(GoalTime{0.0}, parabola, e);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().text.find("stream_deviation_bound"), std::string::npos) << refused.error().text;
+}
+
+// A drive on lines goes on at 1 rad/s, its path at -1: 2 rad/s apart for 19 ms, as far as its samples go.
+TEST(DemandDeparture, BeginsWhereTheDriveWasLeft) {
+  SetpointEncoding e = encoding(1e6);
+  e.order = 1;
+  const interpolation::CipKnots known{{{0.0, 0.0}, {-0.01, -0.01}, {-0.02, -0.02}, {-0.03, -0.03}}};
+  const trajectory::Path back = piece(1.0, {{0.0, -1.0}});
+  EXPECT_NEAR(demand_departure(known, GoalTime{0.03}, GoalTime{0.03}, back, back, e), 2.0 * 0.019 * 1e6, 1.0);
+}
+
 }  // namespace
 }  // namespace interpolated_motion::encoding

@@ -53,6 +53,11 @@ Expected<SetpointCertificate, Refusal> certify_setpoints(const trajectory::Path&
 Expected<SetpointCertificate, Refusal> certify_setpoints_from(GoalTime first, const trajectory::Path& path,
                                                               const SetpointEncoding& encoding);
 
+/// The same of a stream's way on, whose target positions are known to be at `first` and whole periods after
+/// it. Only the deviation is held against its bound; what is refused is so for `stream_deviation_bound`.
+Expected<SetpointCertificate, Refusal> certify_stream_from(GoalTime first, const trajectory::Path& path,
+                                                           const SetpointEncoding& encoding);
+
 /// Largest acceleration, per s^2, of what the drive makes of target positions that follow `path` exactly, not
 /// rounded to counts: by differences of its demand from servo sample to servo sample, between the target
 /// positions at `first` and those behind the path. `encoding` must be valid.
@@ -65,6 +70,12 @@ double demand_acceleration(const trajectory::Path& path, GoalTime first, const S
 /// means nothing.
 double demand_acceleration(interpolation::CipKnots known, GoalTime next, GoalTime until,
                            const trajectory::Path& way_on, const SetpointEncoding& encoding);
+
+/// How far, in counts, the drive is off `path` at most at its samples while it goes on from `known` and then
+/// comes along `way_on`, both as above; its target positions are whole counts.
+double demand_departure(interpolation::CipKnots known, GoalTime next, GoalTime until,
+                        const trajectory::Path& way_on, const trajectory::Path& path,
+                        const SetpointEncoding& encoding);
 
 /// An acceleration of what a drive makes of its target positions.
 struct AccelerationPeak {

@@ -1,5 +1,7 @@
 #include "interpolated_motion_driver/axis/cyclic/cyclic_axis.h"
 
+#include <algorithm>
+
 namespace interpolated_motion::axis {
 
 CyclicAxis::CyclicAxis(const CyclicAxisParameters& parameters, canopen::Master& master,
@@ -15,7 +17,11 @@ CyclicAxis::CyclicAxis(const CyclicAxisParameters& parameters, canopen::Master& 
 
 void CyclicAxis::poll(HostTime now) {
   ComposedAxis::poll(now);
-  player_.send_target();
+  player_.send_target(now);
+}
+
+HostTime CyclicAxis::next_deadline() const {
+  return std::min(ComposedAxis::next_deadline(), player_.repeat_due());
 }
 
 }  // namespace interpolated_motion::axis

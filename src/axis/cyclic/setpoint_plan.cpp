@@ -1,6 +1,7 @@
 #include "interpolated_motion_driver/axis/cyclic/setpoint_plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "interpolated_motion_driver/interpolation/cip_polynomial.h"
@@ -50,13 +51,20 @@ class WayOnEncoder : public TailEncoder {
 
 class StreamEncoder : public TailEncoder {
  public:
-  explicit StreamEncoder(GoalTime from) : from_(from) {}
+  StreamEncoder(encoding::SetpointEncoding encoding, GoalTime from)
+      : encoding_(std::move(encoding)), from_(from) {}
 
   Expected<TailPtr, Refusal> encode(const trajectory::Path& path) const override {
+    const double known = std::floor((from_ - path.start_time()) / encoding_.period);
+    const double before = std::clamp<double>(known, 0.0, interpolation::kCipHistory);
+    const auto certificate =
+        encoding::certify_stream_from(from_ - before * encoding_.period, path, encoding_);
+    if (!certificate) return certificate.error();
     return tail_of(path, from_);
   }
 
  private:
+  encoding::SetpointEncoding encoding_;
   GoalTime from_;
 };
 
@@ -70,6 +78,8 @@ TailEncoderPtr setpoint_way_on_encoder(const encoding::SetpointEncoding& encodin
   return std::make_unique<WayOnEncoder>(encoding, from);
 }
 
-TailEncoderPtr setpoint_stream_encoder(GoalTime from) { return std::make_unique<StreamEncoder>(from); }
+TailEncoderPtr setpoint_stream_encoder(const encoding::SetpointEncoding& encoding, GoalTime from) {
+  return std::make_unique<StreamEncoder>(encoding, from);
+}
 
 }  // namespace interpolated_motion::axis

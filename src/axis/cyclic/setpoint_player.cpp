@@ -23,6 +23,8 @@ constexpr int kLatency = 2;
 constexpr GoalTime kHostMargin{0.005};
 /// With more control frames than this waiting, the bus is down: what is sent now would arrive too late.
 constexpr std::size_t kJammed = 128;
+/// So long before SYNC a drive that is not heard of gets its target position again.
+constexpr HostDuration kRepeat = 1ms;
 /// Longest that drives are known to ride out missing target positions, periods.
 constexpr int kRideThrough = 10;
 
@@ -122,15 +124,40 @@ HostDuration SetpointPlayer::longest_motion(HostTime) const {
          host_duration(limits.max_velocity / limits.max_acceleration);
 }
 
+/// A drive that hears again takes with the first SYNC what it has: if nothing else, a target position of
+/// before it fell silent. So it gets the newest one twice, the second time shortly before SYNC.
+HostTime SetpointPlayer::repeat_due() const {
+  const bool waits = !repeated_ && stage_.wants_targets() && sent_for_ == drive_.master().next_sync_due();
+  return waits ? sent_for_ - std::min(kRepeat, drive_.parameters().sync_period / 4) : kNever;
+}
+
 /// One target position for each SYNC, right behind the SYNC before it.
-void SetpointPlayer::send_target() {
+void SetpointPlayer::send_target(HostTime now) {
   canopen::Master& master = drive_.master();
   SetpointStream& setpoints = drive_.setpoints();
   setpoints.leave_out(master.sync_timing().first_left_out(), master.sync_timing().last_left_out());
   const bool sends = stage_.wants_targets() && master.pending_control() <= kJammed;
-  const auto target = sends ? setpoints.next(master.next_sync_due()) : std::nullopt;
-  if (target) ++(send(*target) ? sent_ : refused_);
+  const bool heard = drive_.report().position_time >= master.last_sync_time();
+  const auto target = sends ? setpoints.next(master.next_sync_due(), heard) : std::nullopt;
+  if (target) {
+    sent_for_ = master.next_sync_due();
+    repeated_ = heard;
+    ++(send(*target) ? sent_ : refused_);
+  }
+  if (sends && now >= repeat_due()) {
+    repeated_ = true;
+    send(setpoints.newest_counts());
+  }
+  if (const auto detour = setpoints.take_detour()) tell(*detour, now);
   drive_.node().set_needs_sync(stage_.wants_targets() && !setpoints.is_led());
+}
+
+void SetpointPlayer::tell(const Detour& detour, HostTime now) {
+  stage_.notes().add({true, fmt::format("Joint '{}': target positions have not reached its drive in time. It "
+                                        "has gone on by itself and is led back to its path within {:.3f} s, "
+                                        "{:.0f} counts off at most.",
+                                        drive_.parameters().joint, seconds(detour.duration), detour.counts)},
+                     now);
 }
 
 /// The torque first: the drive takes all of them at SYNC.
@@ -274,8 +301,10 @@ trajectory::DemandCheck SetpointPlayer::demand_check() const {
 }
 
 TailEncoderPtr SetpointPlayer::encoder_behind(Pace pace) const {
-  if (pace == Pace::Stream) return setpoint_stream_encoder(*committed());
-  return setpoint_way_on_encoder(setpoint_encoding(drive_.parameters()), *committed());
+  encoding::SetpointEncoding encoding = setpoint_encoding(drive_.parameters());
+  if (pace == Pace::Goal) return setpoint_way_on_encoder(encoding, *committed());
+  encoding.bound_counts = drive_.parameters().stream_deviation_bound;
+  return setpoint_stream_encoder(encoding, *committed());
 }
 
 bool SetpointPlayer::can_follow(const Tail& tail) const {

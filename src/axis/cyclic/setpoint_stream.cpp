@@ -22,6 +22,9 @@ constexpr int kRamps[] = {3, 4, 5, 6, 8, 10, 12};
 constexpr double kBrakingShare = 0.9;
 
 constexpr double kHistory = interpolation::kCipHistory;
+/// Target positions that a drive which is not heard of is sent where it goes by itself. By then one that has
+/// received none has braked; one that does receive them must not be led farther astray.
+constexpr int kMostUnheard = 5;
 
 /// Largest acceleration of what a drive makes of a stop, per s^2.
 using StopDemand = std::function<double(const trajectory::Path&)>;
@@ -105,8 +108,9 @@ void SetpointStream::brake() {
   const GoalTime now = goal_time(newest());
   trajectory::State state = path_.sample(now);
   if (rests_at(now)) state.velocity = state.acceleration = 0.0;
+  if (is_unheard()) state = newest_motion();
   braking_ = true;
-  if (newest() < back_at_) return lay(stop_off_the_path(state, newest()), newest());
+  if (is_unheard() || newest() < back_at_) return lay(stop_off_the_path(state, newest()), newest());
   const auto demand = [this, now](const trajectory::Path& stop) {
     const GoalTime first = now - kHistory * encoding_.period;
     return encoding::demand_acceleration(trajectory::splice(path_, first, now, stop), first, encoding_);
@@ -138,31 +142,56 @@ trajectory::Path SetpointStream::stop_off_the_path(const trajectory::State& ther
 }
 
 void SetpointStream::bridge(const trajectory::State& there, HostTime stamp) {
-  const auto back = way_back(path_, departure(there, stamp), limits_, encoding_);
+  const Departure from = departure(there, stamp);
+  const auto back = way_back(path_, from, limits_, encoding_);
   astray_ = !back;
   if (!back) return;
+  const GoalTime end = back->pieces().front().end;
+  const double off = encoding::demand_departure(from.known, from.next, end + kHistory * encoding_.period,
+                                                *back, path_, encoding_);
+  detour_ = Detour{off, host_duration((end - from.start).count())};
   lay(*back, stamp);
-  back_at_ = stamp + host_duration(back->pieces().front().duration().count());
+  back_at_ = stamp + detour_->duration;
 }
 
 std::int32_t SetpointStream::target_at(HostTime stamp) const {
   if (rest_) return *rest_;
-  if (!astray_) return encoding::setpoint_at(path_, encoding_.transmission, goal_time(stamp));
-  const trajectory::Path further(history_.at(stamp, encoding_.transmission).position);
-  return encoding::setpoint_at(further, encoding_.transmission, GoalTime{0.0});
+  if (astray_) return further(stamp);
+  return encoding::setpoint_at(path_, encoding_.transmission, goal_time(stamp));
 }
 
-std::optional<std::int32_t> SetpointStream::next(HostTime sync) {
+/// Where the drive goes by itself.
+std::int32_t SetpointStream::further(HostTime stamp) const {
+  const trajectory::Path there(history_.at(stamp, encoding_.transmission).position);
+  return encoding::setpoint_at(there, encoding_.transmission, GoalTime{0.0});
+}
+
+std::optional<std::int32_t> SetpointStream::next(HostTime sync, bool heard) {
   if (sync == kNever) return std::nullopt;
   const HostTime stamp = sync + period_;
   if (stamp <= newest()) return std::nullopt;
-  const bool continues = newest() != HostTime{};
-  const auto gap = continues ? (stamp - newest() - period_ / 2) / period_ : 0;
-  missed_ += static_cast<std::uint64_t>(gap);
-  if (gap > 0 && !rests_until(stamp)) come_back(stamp);
-  counts_ = target_at(stamp);
+  if (goes_unheard(sync, heard)) {
+    counts_ = further(stamp);
+  } else {
+    const bool continues = newest() != HostTime{};
+    const auto gap = continues ? (stamp - newest() - period_ / 2) / period_ : 0;
+    missed_ += static_cast<std::uint64_t>(gap);
+    if (gap > 0 && !rests_until(stamp)) come_back(stamp);
+    counts_ = target_at(stamp);
+  }
   history_.add(stamp, counts_);
   return counts_;
+}
+
+/// Takes back, of the target positions so far, those of which it is not known that they have arrived. Of the
+/// SYNC before the last the drive has told nothing: those of that one and of the last are the first.
+bool SetpointStream::goes_unheard(HostTime sync, bool heard) {
+  const bool goes = !heard && unheard_ < kMostUnheard && !rests_until(sync + period_);
+  if (goes && !is_unheard()) unheard_from_ = sync - 2 * period_;
+  if (is_unheard()) history_.drop(unheard_from_, sync);
+  unheard_ = goes ? unheard_ + 1 : heard ? 0 : unheard_;
+  if (!goes) unheard_from_ = kNever;
+  return goes;
 }
 
 // Of those before the newest no later look at the newest will tell.
@@ -173,7 +202,7 @@ void SetpointStream::leave_out(HostTime first, HostTime last) {
 }
 
 trajectory::State SetpointStream::newest_motion() const {
-  if (astray_) return history_.at(newest(), encoding_.transmission);
+  if (astray_ || is_unheard()) return history_.at(newest(), encoding_.transmission);
   const GoalTime time = goal_time(newest());
   return rest_ || rests_at(time) ? trajectory::State{} : path_.sample(time);
 }

@@ -6,10 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/hardware/drive_parameters.h"
+
 namespace interpolated_motion::hardware {
 
 namespace {
 
+constexpr double kOfStreams = 8.0;        // of deviation_bound, where it is not given
 constexpr double kLongestPeriod = 0.020;  // s, 0x60C2 of the drives this is for
 
 void parse_emulated(ParameterReader& reader, const DriveConfiguration& drive, CyclicSettings& settings) {
@@ -49,6 +52,8 @@ std::shared_ptr<const CyclicSettings> parse_cyclic(ParameterReader& reader, Para
   CyclicSettings& cyclic = *settings;
   cyclic.interpolation_order =
       static_cast<int>(reader.integer("interpolation_order", cyclic.interpolation_order, 1, 3));
+  cyclic.stream_deviation_bound =
+      parse_stream_deviation_bound(reader, drive, kOfStreams * drive.deviation_bound);
   cyclic.servo_period = reader.number("servo_period", cyclic.servo_period, 100e-6, 10e-3);
   cyclic.velocity_unit = reader.number("velocity_unit", cyclic.velocity_unit, 1e-6, 1e9);
   cyclic.acceleration_unit = reader.number("acceleration_unit", cyclic.acceleration_unit, 1e-6, 1e9);

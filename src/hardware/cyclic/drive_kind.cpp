@@ -47,6 +47,7 @@ class CyclicKind : public CanDriveKind {
     axis::CyclicAxisParameters parameters;
     set_cia402_parameters(parameters, drive, all, link);
     parameters.deviation_bound = drive.deviation_bound;
+    parameters.stream_deviation_bound = settings.stream_deviation_bound;
     parameters.limit_margin = drive.limit_margin;
     parameters.sync_period = host_duration(all.bus_of(drive).sync_period);
     parameters.interpolation_order = settings.interpolation_order;

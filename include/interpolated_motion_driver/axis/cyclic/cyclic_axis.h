@@ -16,6 +16,7 @@ class CyclicAxis : public ComposedAxis {
   CyclicAxis(const CyclicAxisParameters& parameters, canopen::Master& master, canopen::NodeLink& node);
 
   void poll(HostTime now) override;
+  HostTime next_deadline() const override;
 
  private:
   CyclicDevice drive_;

@@ -6,8 +6,9 @@ namespace interpolated_motion::axis {
 
 /// Settings of one drive in the cyclic synchronous position mode.
 struct CyclicAxisParameters : Cia402AxisParameters {
-  double deviation_bound = 5.0;  ///< counts, at any servo sample
-  double limit_margin = 1.2;     ///< the demand may exceed the joint's acceleration by this factor
+  double deviation_bound = 5.0;          ///< counts, at any servo sample
+  double stream_deviation_bound = 40.0;  ///< counts, the same in a stream of setpoints
+  double limit_margin = 1.2;             ///< the demand may exceed the joint's acceleration by this factor
   HostDuration sync_period =
       std::chrono::milliseconds(10);  ///< between target positions: whole ms, 1..20 (0x60C2)
   int interpolation_order = 3;        ///< of the drive's fine interpolation, 1..3; as its manual says

@@ -24,7 +24,8 @@ TailEncoderPtr setpoint_goal_encoder(const encoding::SetpointEncoding& encoding)
 /// on a few before it: those have been held against the former way.
 TailEncoderPtr setpoint_way_on_encoder(const encoding::SetpointEncoding& encoding, GoalTime from);
 
-/// Of setpoints behind `from`, which are judged as they are laid (Axis::demand_check()).
-TailEncoderPtr setpoint_stream_encoder(GoalTime from);
+/// Of setpoints behind `from`, whose limits are judged as they are laid (Axis::demand_check()): here how far
+/// the drive would be off the path.
+TailEncoderPtr setpoint_stream_encoder(const encoding::SetpointEncoding& encoding, GoalTime from);
 
 }  // namespace interpolated_motion::axis

@@ -24,8 +24,11 @@ class SetpointPlayer final : public Player {
   /// `stage` and `drive`, its device, must outlive the player.
   SetpointPlayer(Cia402PowerStage& stage, CyclicDevice& drive) : stage_(stage), drive_(drive) {}
 
-  /// Sends the target position of the next SYNC, when the drive is to have one: right behind the SYNC before.
-  void send_target();
+  /// Sends the target position of the next SYNC, when the drive is to have one: right behind the SYNC before,
+  /// and to a drive that has not answered the last one again, shortly before.
+  void send_target(HostTime now);
+  /// When the latter is due; kNever: it is not.
+  HostTime repeat_due() const;
 
   void begin(HostTime now) override;
   void play(HostTime now) override;
@@ -73,6 +76,7 @@ class SetpointPlayer final : public Player {
   };
 
   bool send(std::int32_t target);
+  void tell(const Detour& detour, HostTime now);
   void poll_following(HostTime now);
   void poll_moving(HostTime now);
   void come_to_rest(HostTime now);
@@ -90,6 +94,8 @@ class SetpointPlayer final : public Player {
   HostTime held_ = HostTime::min();  ///< of hold()
   bool finished_ = false;
 
+  HostTime sent_for_ = kNever;  ///< SYNC of the newest target position
+  bool repeated_ = true;        ///< that is not to be sent again
   std::uint64_t sent_ = 0;
   std::uint64_t sent_at_load_ = 0;
   std::uint64_t missed_at_load_ = 0;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "interpolated_motion_driver/axis/cyclic/setpoint_history.h"
 #include "interpolated_motion_driver/axis/cyclic/way_back.h"
@@ -11,6 +12,12 @@
 #include "interpolated_motion_driver/units/time.h"
 
 namespace interpolated_motion::axis {
+
+/// A way of a drive back to its path.
+struct Detour {
+  double counts = 0.0;  ///< off the path, at most, from the newest target position on that it had
+  HostDuration duration{};
+};
 
 /// The target positions of one drive, one for each SYNC.
 ///
@@ -22,6 +29,9 @@ namespace interpolated_motion::axis {
 /// Where the host was too late, or SYNC was left out, the drive has gone on along its polynomial and cannot
 /// be called back: the target positions go on from there, and back to the path within the limits
 /// (way_back()), or, in a stop, to rest.
+///
+/// A drive that does not answer SYNC may not have received them either. As long as it is not heard of it is
+/// sent where it goes by itself, so that it does the same whether they arrive or not; then it is led back.
 class SetpointStream {
  public:
   /// `limits` are what the joint brakes and comes back to its path within: velocity and acceleration must be
@@ -39,8 +49,8 @@ class SetpointStream {
   void brake();
 
   /// The target position to be sent for the SYNC that is due at `sync`; nothing if there has been one, or if
-  /// `sync` is kNever.
-  std::optional<std::int32_t> next(HostTime sync);
+  /// `sync` is kNever. `heard`: the drive has answered the last SYNC that it had time to answer.
+  std::optional<std::int32_t> next(HostTime sync, bool heard = true);
   /// The SYNCs that were due from `first` to `last` have not been sent: the drive has not taken the target
   /// positions that were for them. To be told before the next one is asked for.
   void leave_out(HostTime first, HostTime last);
@@ -57,11 +67,13 @@ class SetpointStream {
   /// Whether the drive interpolates through target positions of its path alone. One that has gone on without
   /// some, and has not been led back, goes farther astray with each one more that is missing.
   bool is_led() const {
-    return newest() >= back_at_ + static_cast<int>(interpolation::kCipHistory) * period_;
+    return !is_unheard() && newest() >= back_at_ + static_cast<int>(interpolation::kCipHistory) * period_;
   }
   /// Whether the drive has gone so far astray that the limits allow no way back to the path. It goes on as it
   /// went until it is stopped.
   bool astray() const { return astray_; }
+  /// The way back that was laid last, if it has not been taken yet.
+  std::optional<Detour> take_detour() { return std::exchange(detour_, std::nullopt); }
   /// Forgets when the newest one was: what follows continues nothing.
   void restart() { history_.clear(); }
 
@@ -74,7 +86,10 @@ class SetpointStream {
   trajectory::Path stop_off_the_path(const trajectory::State& there, HostTime stamp) const;
   void come_back(HostTime stamp);
   void bridge(const trajectory::State& there, HostTime stamp);
+  bool is_unheard() const { return unheard_from_ != kNever; }
+  bool goes_unheard(HostTime sync, bool heard);
   std::int32_t target_at(HostTime stamp) const;
+  std::int32_t further(HostTime stamp) const;
 
   encoding::SetpointEncoding encoding_;
   trajectory::JointLimits limits_;
@@ -84,7 +99,10 @@ class SetpointStream {
   std::optional<std::int32_t> rest_{0};
   bool braking_ = false;
   bool astray_ = false;
-  HostTime back_at_{};  ///< until then it is on its way back to the path
+  std::optional<Detour> detour_;
+  HostTime back_at_{};              ///< until then it is on its way back to the path
+  HostTime unheard_from_ = kNever;  ///< SYNC of the first target position that may not have arrived
+  int unheard_ = 0;                 ///< target positions sent since, at most
   SetpointHistory history_;
   std::int32_t counts_ = 0;
   std::uint64_t missed_ = 0;

@@ -12,6 +12,7 @@ namespace interpolated_motion::hardware {
 /// What only drives of type `cyclic` have.
 struct CyclicSettings : DriveSettings {
   int interpolation_order = 3;           ///< of the drive's fine interpolation, 1..3
+  double stream_deviation_bound = 40.0;  ///< counts
   double servo_period = 1e-3;            ///< s, between the samples of the fine interpolation
   double velocity_unit = 1.0;            ///< counts/s in one unit of 0x606C
   double acceleration_unit = 1.0;        ///< counts/s^2 in one unit of 0x6084 and 0x6085
