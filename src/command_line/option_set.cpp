@@ -91,6 +91,11 @@ void OptionSet::add_number(const Option& option, Range allowed, double& target) 
       [&target, allowed](const auto& name, const auto& text) { target = number(name, text, allowed); });
 }
 
+void OptionSet::add_number(const Option& option, Range allowed, std::optional<double>& target) {
+  add(option,
+      [&target, allowed](const auto& name, const auto& text) { target = number(name, text, allowed); });
+}
+
 void OptionSet::add_whole_number(const Option& option, Range allowed, int& target) {
   add(option,
       [&target, allowed](const auto& name, const auto& text) { target = whole_number(name, text, allowed); });
@@ -124,10 +129,23 @@ void OptionSet::refuse_unknown(const std::string& argument) const {
                                   : fmt::format("unknown argument {}; did you mean {}?", name, closest));
 }
 
+/// A word, or a negative number, which Boost takes for an option.
+bool OptionSet::is_argument(const po::option& option) const {
+  double number = 0.0;
+  const bool negative =
+      option.unregistered && boost::conversion::try_lexical_convert(option.original_tokens.front(), number);
+  return arguments_ != nullptr && (option.position_key >= 0 || negative);
+}
+
 bool OptionSet::parse(const std::vector<std::string>& arguments) const {
   const po::parsed_options found = parsed(options_, arguments);
+  std::vector<std::string> words;
   for (const po::option& option : found.options) {
     if (option.string_key == kHelp) return false;
+    if (is_argument(option)) {
+      words.push_back(option.original_tokens.front());
+      continue;
+    }
     if (option.unregistered || option.position_key >= 0) refuse_unknown(option.original_tokens.front());
     if (!option.value.empty()) refuse_missing_value(option);
   }
@@ -138,6 +156,7 @@ bool OptionSet::parse(const std::vector<std::string>& arguments) const {
     throw std::invalid_argument(error.what());
   }
   po::notify(values);
+  if (arguments_ != nullptr) *arguments_ = words;
   return true;
 }
 

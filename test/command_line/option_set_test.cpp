@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 namespace interpolated_motion::command_line {
@@ -124,6 +126,27 @@ TEST_F(OptionSetTest, HelpShowsSynopsisOptionsAndNotes) {
        {"program --goal FILE\n", "--goal FILE", "--timeout SECONDS", "s (default: 3)", "--help", "-h",
         "--bitrate BIT/S", "--clock-error-ppm PPM", "--epos NODES", "Exit code: 0."})
     EXPECT_NE(help.find(text), std::string::npos) << text << " is not in\n" << help;
+}
+
+TEST_F(OptionSetTest, ANumberMayBeToldFromNone) {
+  std::optional<double> number;
+  options_.add_number({"share", "PART", "of it"}, {0.0, 1.0}, number);
+  ASSERT_TRUE(parse({}));
+  EXPECT_EQ(number, std::nullopt);
+  ASSERT_TRUE(parse({"--share", "0.5"}));
+  EXPECT_EQ(number, 0.5);
+  EXPECT_EQ(refusal({"--share", "2"}), "--share: \"2\" is not a number within 0..1");
+}
+
+TEST_F(OptionSetTest, WordsAreTakenWhereTheProgramAsksForThem) {
+  std::vector<std::string> words{"of before"};
+  options_.add_arguments(words);
+  ASSERT_TRUE(parse({"0x6064:1", "--timeout", "1", "-4000", "-1e3", "a b"}));
+  EXPECT_EQ(words, (std::vector<std::string>{"0x6064:1", "-4000", "-1e3", "a b"}));
+  EXPECT_EQ(number_, 1.0);
+  EXPECT_EQ(refusal({"-x"}), "unknown argument -x; --help lists all options");
+  ASSERT_TRUE(parse({}));
+  EXPECT_TRUE(words.empty());
 }
 
 TEST(ClosestName, IsTheLeastDifferentOneAndNoneThatIsTooDifferent) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <boost/program_options/option.hpp>
 #include <boost/program_options/options_description.hpp>
 
 namespace interpolated_motion::command_line {
@@ -33,6 +35,7 @@ class OptionSet {
   /// must be within that of int.
   void add_text(const Option& option, std::string& target);
   void add_number(const Option& option, Range allowed, double& target);
+  void add_number(const Option& option, Range allowed, std::optional<double>& target);
   void add_whole_number(const Option& option, Range allowed, int& target);
 
   /// `--name` alone: true where it is given.
@@ -41,6 +44,10 @@ class OptionSet {
   /// Lists: numbers with commas between them, one at least, each within `allowed`.
   void add_numbers(const Option& option, Range allowed, std::vector<double>& target);
   void add_whole_numbers(const Option& option, Range allowed, std::vector<int>& target);
+
+  /// The words that are no options, in their order, a negative number among them; without this there must be
+  /// none.
+  void add_arguments(std::vector<std::string>& target) { arguments_ = &target; }
 
   /// Reads the arguments behind the program's name. False when help is asked for; then no target is set.
   /// Throws std::invalid_argument that names the argument, what is wrong with it and what is allowed; for an
@@ -54,12 +61,14 @@ class OptionSet {
   using Reader = std::function<void(const std::string& name, const std::string& text)>;
 
   void add(const Option& option, const Reader& read);
+  bool is_argument(const boost::program_options::option& option) const;
   [[noreturn]] void refuse_unknown(const std::string& argument) const;
 
   std::string synopsis_;
   std::string notes_;
   boost::program_options::options_description options_;
   std::vector<std::string> names_;  ///< with the dashes
+  std::vector<std::string>* arguments_ = nullptr;
 };
 
 }  // namespace interpolated_motion::command_line
