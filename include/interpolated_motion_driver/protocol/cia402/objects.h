@@ -21,6 +21,8 @@ inline constexpr Address kErrorHistoryNewest{0x1003, 1};  ///< U32, newest first
 inline constexpr Address kSyncCobId{0x1005, 0};           ///< U32, 0x80 by default
 inline constexpr Address kCommunicationCyclePeriod{0x1006, 0};  ///< U32, us between two SYNC
 inline constexpr Address kDeviceName{0x1008, 0};                ///< VISIBLE_STRING
+inline constexpr Address kHardwareVersion{0x1009, 0};           ///< VISIBLE_STRING
+inline constexpr Address kSoftwareVersion{0x100A, 0};           ///< VISIBLE_STRING
 inline constexpr Address kStoreParameters{0x1010, 1};           ///< U32, write kStoreSignature
 inline constexpr Address kRestoreParameters{0x1011, 1};         ///< U32, write kRestoreSignature
 inline constexpr Address kTimeStamp{0x1013,
@@ -69,6 +71,8 @@ inline constexpr Address kTorqueOffset{0x60B2, 0};            ///< I16, per mill
 inline constexpr Address kInterpolationPeriod{0x60C2, 1};  ///< U8, in units of 10^kInterpolationTimeIndex s
 inline constexpr Address kInterpolationTimeIndex{0x60C2, 2};  ///< I8, power of ten of 1 s, -3: ms
 inline constexpr Address kMaxAcceleration{0x60C5, 0};         ///< U32
+inline constexpr Address kCurrentActual{0x6078, 0};           ///< I16, per mille of the rated current
+inline constexpr Address kSupplyVoltage{0x6079, 0};           ///< U32, mV, of the DC link
 inline constexpr Address kFollowingErrorActual{
     0x60F4, 0};  ///< I32, position units; EPOS2 has kFollowingError instead
 inline constexpr Address kSupportedDriveModes{0x6502, 0};  ///< U32, bit n - 1: mode n
