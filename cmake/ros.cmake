@@ -91,6 +91,6 @@ endfunction()
 function(imd_add_program_tests)
   set(programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
   set(xml pytest-programs.xml)
-  catkin_run_tests_target("pytest" programs ${xml} DEPENDENCIES driver_node trajectory_client emulated_drives
+  catkin_run_tests_target("pytest" programs ${xml} DEPENDENCIES driver_node trajectory_client emulated_drives drive_tool
     COMMAND "env IMD_PROGRAMS=${programs} ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test/programs --junitxml=${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${xml}")
 endfunction()

@@ -7,14 +7,14 @@ function(imd_link_transports)
   target_link_libraries(imd_transport PUBLIC Boost::system Threads::Threads)
 endfunction()
 
-# src/emulated_drives: a program without ROS, but where rosrun finds it.
-function(imd_add_emulated_drives)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/emulated_drives/*.cpp)
-  add_executable(emulated_drives ${sources})
-  set_target_properties(emulated_drives PROPERTIES
+# src/NAME: a program without ROS, but where rosrun finds it. Further arguments are libraries.
+function(imd_add_plain_program name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  add_executable(${name} ${sources})
+  set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-  target_link_libraries(emulated_drives PRIVATE imd_hardware imd_command_line)
-  install(TARGETS emulated_drives RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_link_libraries(${name} PRIVATE ${ARGN} imd_hardware imd_command_line)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
 
 # Registers a test that needs CAN in the kernel, and so runs within scripts/with_vcan; the result file follows `result_option`.
@@ -37,8 +37,9 @@ function(imd_add_socketcan_tests)
   add_dependencies(tests socketcan_tests)
   imd_add_vcan_test(gtest socketcan_tests --gtest_output=xml: ${PROJECT_BINARY_DIR}/socketcan_tests socketcan_tests)
 
-  set(program ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/emulated_drives)
-  set(pytest "env IMD_EMULATED_DRIVES=${program} ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test")
+  set(programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  set(pytest "env IMD_EMULATED_DRIVES=${programs}/emulated_drives IMD_DRIVE_TOOL=${programs}/drive_tool ${PYTHON_EXECUTABLE} -B -m pytest -q -p no:cacheprovider ${PROJECT_SOURCE_DIR}/test")
   imd_add_vcan_test(pytest emulated_drives_test --junitxml= "${pytest}/socketcan/emulated_drives_test.py" emulated_drives)
+  imd_add_vcan_test(pytest drive_tool_test --junitxml= "${pytest}/socketcan/drive_tool_test.py" emulated_drives drive_tool)
   imd_add_vcan_test(pytest real_buses --junitxml= "${pytest}/real_buses" emulated_drives driver_node)
 endfunction()

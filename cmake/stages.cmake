@@ -2,8 +2,8 @@
 # Sources are src/<stage>/**.cpp, tests are test/<stage>/**_test.cpp. command_line is no stage of the data, but built like one: what the
 # programs have in common, with ROS or without.
 
-set(IMD_STAGES units interpolation trajectory encoding protocol axis motion recording transport emulation hardware
-               command_line)
+set(IMD_STAGES units interpolation trajectory encoding protocol axis motion recording transport commissioning emulation
+               hardware command_line)
 set(IMD_USES_units "")
 set(IMD_USES_interpolation "")
 set(IMD_USES_trajectory "")
@@ -13,6 +13,7 @@ set(IMD_USES_axis encoding protocol)
 set(IMD_USES_motion axis trajectory)
 set(IMD_USES_recording motion protocol)
 set(IMD_USES_transport protocol)
+set(IMD_USES_commissioning protocol transport units)
 set(IMD_USES_emulation interpolation protocol transport)
 set(IMD_USES_hardware motion recording transport emulation units)
 set(IMD_USES_command_line units)
@@ -97,6 +98,7 @@ function(imd_add_stage_tests)
       imd_add_gtest(${stage}_tests "${sources}" imd_${stage})
     endif()
   endforeach()
+  target_link_libraries(commissioning_tests PRIVATE imd_emulation) # against emulated drives
   imd_let_calls_fail(transport_tests)
 endfunction()
 

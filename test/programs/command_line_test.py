@@ -7,7 +7,7 @@ import pytest
 
 GOALS = Path(__file__).resolve().parents[2] / "config" / "goals"
 GOAL = str(GOALS / "six_axis_positions_only.yaml")
-ALL = ("driver_node", "trajectory_client", "emulated_drives")
+ALL = ("driver_node", "trajectory_client", "emulated_drives", "drive_tool")
 
 
 @pytest.mark.parametrize("program", ALL)
@@ -25,6 +25,8 @@ OPTIONS = {
     "emulated_drives": {"--config FILE": "", "--can INTERFACE": "", "--epos NODES": "1..127", "--serial LINK": "", "--bus NAME": "default",
                         "--silverlode ADDRESSES": "1..254", "--clock-error-ppm PPM": "ppm (default", "--bitrate BIT/S": "bit/s (default",
                         "--baud BIT/S": "57600", "--samples FOLDER": "default"},
+    "drive_tool": {"drive_tool scan PLACE": "", "read PLACE OBJECT...": "", "write PLACE OBJECT VALUE": "", "save PLACE": "", "dump PLACE FILE": "",
+                   "diff PLACE FILE": "", "restore PLACE FILE": "", "monitor PLACE": "", "PLACE is": "can0"},
     "driver_node": {"__name:=NAME": "default: driver", "_PARAMETER:=VALUE": "wire_log"},
 }
 

@@ -1,4 +1,4 @@
-"""The three programs as a user calls them. IMD_PROGRAMS is the folder they are in."""
+"""The programs as a user calls them. IMD_PROGRAMS is the folder they are in."""
 import os
 import socket
 import subprocess
