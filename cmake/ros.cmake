@@ -39,6 +39,12 @@ function(imd_add_programs)
   endif()
 endfunction()
 
+# src/plot: the program `plot`, and its modules in a folder beside it. Its source is not executable: rosrun would find two.
+function(imd_add_plot)
+  catkin_install_python(PROGRAMS src/plot/plot DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(DIRECTORY src/plot/plotting DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} FILES_MATCHING PATTERN "*.py")
+endfunction()
+
 function(imd_add_packaging_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/packaging/*_test.cpp)
   imd_add_gtest(packaging_tests "${sources}")

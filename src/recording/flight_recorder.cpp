@@ -184,7 +184,7 @@ void FlightRecorder::look(const motion::Snapshot& snapshot) {
 
 void FlightRecorder::look_at_joint(HostTime now, std::size_t index, const motion::JointSnapshot& joint) {
   const JointSample sample{joint.desired.position, joint.desired.velocity, joint.actual.position,
-                           joint.actual.velocity, joint.demand_position};
+                           joint.actual.velocity,  joint.demand_position,  joint.fill_time};
   EntryHead head{now, sizeof sample, EntryKind::Joint};
   head.source = static_cast<std::uint8_t>(index);
   push(head, &sample);

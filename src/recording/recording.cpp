@@ -91,8 +91,9 @@ std::string setpoint_line(const Subject& subject, const EntryHead& head, Reader 
 
 std::string joint_line(const Subject& subject, const EntryHead& head, Reader bytes) {
   const auto sample = bytes.take<JointSample>();
-  return fmt::format("joint {} {} {} {} {} {}", name_of(subject.joints, head.source), sample.desired,
-                     sample.desired_velocity, sample.actual, sample.actual_velocity, sample.demand);
+  return fmt::format("joint {} {} {} {} {} {} {}", name_of(subject.joints, head.source), sample.desired,
+                     sample.desired_velocity, sample.actual, sample.actual_velocity, sample.demand,
+                     sample.fill_time);
 }
 
 std::string note_line(const EntryHead& head, Reader bytes) {

@@ -114,6 +114,23 @@ TEST(FlightRecorder, SetpointsAreOrdersWithTheirAnswers) {
       << text;
 }
 
+TEST(FlightRecorder, JointsAreLookedAtWithTheirBuffers) {
+  FlightRecorder recorder({}, subject(), at(0.0));
+  motion::Snapshot snapshot;
+  snapshot.time = at(1.5);
+  snapshot.joints.resize(2);
+  motion::JointSnapshot& joint = snapshot.joints[1];
+  joint.desired.position = 0.25;
+  joint.desired.velocity = -2.0;
+  joint.actual.position = 0.125;
+  joint.actual.velocity = -1.5;
+  joint.demand_position = 0.5;
+  joint.fill_time = 0.75;
+  recorder.look(snapshot);
+  const std::string text = text_of(recorder, 3.0);
+  EXPECT_TRUE(has(text, "1.500000000 joint joint2 0.25 -2 0.125 -1.5 0.5 0.75")) << text;
+}
+
 TEST(FlightRecorder, KeepsTheLastSecondsOnly) {
   FlightRecorder recorder({std::chrono::seconds(10)}, subject(), at(0.0));
   for (int i = 0; i < 300; ++i) recorder.frame("can0", frame(0.1 * i, 0x100, true));

@@ -34,6 +34,7 @@ struct JointSample {
   double actual = 0.0;            ///< rad
   double actual_velocity = 0.0;   ///< rad/s
   double demand = 0.0;            ///< rad, the drive's own
+  double fill_time = 0.0;         ///< s of motion left in the drive's buffer
 };
 
 /// A copy of all that a FlightRecorder has, which another thread may write down.

@@ -1,0 +1,2 @@
+class BadInput(Exception):
+    """A file that cannot be drawn, with a sentence why."""
