@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "interpolated_motion_driver/protocol/cia402/statusword.h"
+#include "interpolated_motion_driver/protocol/silverlode/status_words.h"
+
 namespace interpolated_motion::node {
 namespace {
 
@@ -26,6 +29,12 @@ void summarize_drive(const motion::JointSnapshot& joint, DiagnosticStatus& statu
   } else {
     status.summary(kOk, joint.state);
   }
+}
+
+/// Hexadecimal, with the names of the bits that are set.
+std::string statusword_text(std::uint16_t word, hardware::BusType bus) {
+  return bus == hardware::BusType::Silverlode ? silverlode::PollingStatus{word}.text()
+                                              : cia402::Statusword{word}.text();
 }
 
 /// Whether replies take half as long again as planned; a millisecond of it may be the host's scheduler.
@@ -61,11 +70,11 @@ void diagnose_group(const motion::Snapshot& snapshot, HostDuration longest_turn,
   status.add("longest turn of the bus thread", fmt::format("{:.1f} ms", 1e3 * seconds(longest_turn)));
 }
 
-void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status) {
+void diagnose_drive(const motion::JointSnapshot& joint, hardware::BusType bus, DiagnosticStatus& status) {
   summarize_drive(joint, status);
   status.add("bus", joint.bus);
   status.add("state", joint.state);
-  status.add("statusword", fmt::format("0x{:04X}", joint.statusword));
+  status.add("statusword", statusword_text(joint.statusword, bus));
   status.add("following error",
              fmt::format("{:.6f} {}", joint.following_error, trajectory::symbol(joint.unit)));
   status.add("buffered records", fmt::format("{} of {}", joint.fill, joint.capacity));
@@ -112,16 +121,16 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const HardwareThread& hard
     diagnose_group(snapshot_, hardware_.longest_turn(), status);
   });
   for (const auto& bus : configuration.buses) add_bus(bus);
-  for (const auto& joint : configuration.joints) add_drive(joint);
+  for (const auto& drive : configuration.drives) add_drive(drive.joint, configuration.bus_of(drive).type);
   if (wire_log != nullptr) {
     updater_.add("wire log", [wire_log](DiagnosticStatus& status) { diagnose_wire_log(*wire_log, status); });
   }
 }
 
-void Diagnostics::add_drive(const std::string& joint) {
-  updater_.add("drive " + joint, [this, joint](DiagnosticStatus& status) {
+void Diagnostics::add_drive(const std::string& joint, hardware::BusType bus) {
+  updater_.add("drive " + joint, [this, joint, bus](DiagnosticStatus& status) {
     for (const auto& candidate : snapshot_.joints) {
-      if (candidate.joint == joint) diagnose_drive(candidate, status);
+      if (candidate.joint == joint) diagnose_drive(candidate, bus, status);
     }
   });
 }

@@ -9,6 +9,11 @@
 namespace interpolated_motion::node {
 namespace {
 
+/// A buffer that is empty at rest is as it should be, whatever the drive says of it.
+bool executes_records(motion::GroupState state) {
+  return state == motion::GroupState::Moving || state == motion::GroupState::Streaming;
+}
+
 trajectory::Waypoint to_waypoint(const trajectory_msgs::JointTrajectoryPoint& point) {
   return {GoalTime(point.time_from_start.toSec()), point.positions, point.velocities, point.accelerations,
           point.effort};
@@ -138,7 +143,9 @@ void fill_buffer_status(const motion::Snapshot& snapshot, interpolated_motion_dr
   fill_column(snapshot, message.capacity, [](const Joint& j) { return j.capacity; });
   fill_column(snapshot, message.fill, [](const Joint& j) { return j.fill; });
   fill_column(snapshot, message.fill_time, [](const Joint& j) { return j.fill_time; });
-  fill_column(snapshot, message.underflow_warning, [](const Joint& j) { return j.warnings.underflow; });
+  const bool plays = executes_records(snapshot.state);
+  fill_column(snapshot, message.underflow_warning,
+              [plays](const Joint& j) { return plays && j.warnings.underflow; });
   fill_column(snapshot, message.overflow_warning, [](const Joint& j) { return j.warnings.overflow; });
   fill_column(snapshot, message.velocity_warning, [](const Joint& j) { return j.warnings.velocity; });
   fill_column(snapshot, message.acceleration_warning, [](const Joint& j) { return j.warnings.acceleration; });

@@ -7,7 +7,7 @@ namespace interpolated_motion::node {
 StatePublisher::StatePublisher(ros::NodeHandle node, const HardwareThread& hardware)
     : hardware_(hardware),
       state_publisher_(node.advertise<control_msgs::JointTrajectoryControllerState>("state", 1)),
-      joint_state_publisher_(node.advertise<sensor_msgs::JointState>("/joint_states", 1)) {}
+      joint_state_publisher_(ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1)) {}
 
 void StatePublisher::publish() {
   hardware_.snapshot(snapshot_);

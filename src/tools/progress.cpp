@@ -18,9 +18,10 @@ void Progress::feedback(const control_msgs::FollowJointTrajectoryFeedback& messa
 
 void Progress::buffers(const interpolated_motion_driver::BufferStatus& message) {
   if (message.fill.empty()) return;
+  const auto least = std::min_element(message.fill_time.begin(), message.fill_time.end());
+  const auto joint = static_cast<std::size_t>(least - message.fill_time.begin());
   const std::lock_guard<std::mutex> lock(mutex_);
-  fill_ = Fill{*std::min_element(message.fill.begin(), message.fill.end()),
-               *std::min_element(message.fill_time.begin(), message.fill_time.end())};
+  fill_ = Fill{message.name[joint], *least, message.fill[joint], message.capacity[joint]};
 }
 
 void Progress::show() {
@@ -32,7 +33,10 @@ void Progress::show() {
   shown_percent_ = percent;
   std::string line =
       fmt::format("{:3d} %  {:.1f} of {:.1f} s", percent, std::min(time_, duration_), duration_);
-  if (fill_) line += fmt::format("  buffers >= {} records, {:.2f} s", fill_->records, fill_->time);
+  if (fill_) {
+    line += fmt::format("  buffers >= {:.2f} s ({}: {} of {} records)", fill_->time, fill_->joint,
+                        fill_->records, fill_->capacity);
+  }
   std::fputs((terminal_ ? "\r" + line + "   " : line + "\n").c_str(), stdout);
   std::fflush(stdout);
 }

@@ -25,9 +25,12 @@ class Progress {
   void finish();
 
  private:
+  /// Of the buffer that runs dry first.
   struct Fill {
-    std::uint32_t records = 0;  ///< of the emptiest buffer
-    double time = 0.0;          ///< s, likewise
+    std::string joint;
+    double time = 0.0;  ///< s
+    std::uint32_t records = 0;
+    std::uint32_t capacity = 0;
   };
 
   const double duration_;

@@ -17,10 +17,17 @@ motion::JointSnapshot healthy() {
   return joint;
 }
 
-DiagnosticStatus diagnose(const motion::JointSnapshot& joint) {
+DiagnosticStatus diagnose(const motion::JointSnapshot& joint,
+                          hardware::BusType bus = hardware::BusType::Canopen) {
   DiagnosticStatus status;
-  diagnose_drive(joint, status);
+  diagnose_drive(joint, bus, status);
   return status;
+}
+
+std::string value_of(const DiagnosticStatus& status, const std::string& key) {
+  for (const auto& value : status.values)
+    if (value.key == key) return value.value;
+  return "not told";
 }
 
 TEST(DriveDiagnostics, AHealthyDriveTellsItsState) {
@@ -46,18 +53,25 @@ TEST(DriveDiagnostics, AnErrorCodeIsToldWithItsText) {
   EXPECT_NE(status.message.find("following error"), std::string::npos);
 }
 
+// CiA 402: 0x0027 operation enabled, bit 9 remote, bit 10 target reached; SilverLode's polling status: bit 3
+// kill motor, bit 8 moving error.
+TEST(DriveDiagnostics, StatuswordsAreHexadecimalWithTheNamesOfTheirBits) {
+  auto joint = healthy();
+  joint.statusword = 0x0627;
+  EXPECT_EQ(value_of(diagnose(joint), "statusword"), "operation enabled, target reached, remote (0x0627)");
+  joint.statusword = 0x0108;
+  const std::string text = value_of(diagnose(joint, hardware::BusType::Silverlode), "statusword");
+  EXPECT_NE(text.find("kill"), std::string::npos) << text;
+  EXPECT_NE(text.find("moving error"), std::string::npos) << text;
+  EXPECT_NE(text.find("(0x0108)"), std::string::npos) << text;
+}
+
 TEST(DriveDiagnostics, LengthsAreInMetres) {
   auto joint = healthy();
   joint.following_error = 0.0005;
-  const auto following_error = [&joint] {
-    const DiagnosticStatus status = diagnose(joint);
-    for (const auto& value : status.values)
-      if (value.key == "following error") return value.value;
-    return std::string("not told");
-  };
-  EXPECT_EQ(following_error(), "0.000500 rad");
+  EXPECT_EQ(value_of(diagnose(joint), "following error"), "0.000500 rad");
   joint.unit = trajectory::JointUnit::Metre;
-  EXPECT_EQ(following_error(), "0.000500 m");
+  EXPECT_EQ(value_of(diagnose(joint), "following error"), "0.000500 m");
 }
 
 TEST(DriveDiagnostics, ABufferThatRanDryIsAWarning) {

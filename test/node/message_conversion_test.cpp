@@ -109,6 +109,20 @@ TEST_F(MessageConversion, AJointThatDoesNotAnswerHasNoJointState) {
   EXPECT_TRUE(message.effort.empty());
 }
 
+TEST_F(MessageConversion, AnEmptyBufferAtRestIsNoWarning) {
+  interpolated_motion_driver::BufferStatus message;
+  motion::Snapshot drives = snapshot();
+  drives.joints[1].warnings.underflow = true;
+  drives.state = motion::GroupState::Idle;
+  fill_buffer_status(drives, message);
+  EXPECT_EQ(message.underflow_warning, (std::vector<std::uint8_t>{0, 0}));
+  for (const auto state : {motion::GroupState::Moving, motion::GroupState::Streaming}) {
+    drives.state = state;
+    fill_buffer_status(drives, message);
+    EXPECT_EQ(message.underflow_warning, (std::vector<std::uint8_t>{0, 1}));
+  }
+}
+
 TEST_F(MessageConversion, BufferStatusHasTheLoadOfTheJointsBus) {
   interpolated_motion_driver::BufferStatus message;
   fill_buffer_status(snapshot(), message);

@@ -17,6 +17,7 @@ import rospy
 import rostest
 import yaml
 from actionlib_msgs.msg import GoalStatus
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -35,14 +36,16 @@ def configuration():
 class Process:
     """A driver_node of its own, under a name of its own."""
 
-    def __init__(self, name, parameters):
-        if rospy.has_param('/' + name):
-            rospy.delete_param('/' + name)
+    def __init__(self, name, parameters, namespace=''):
+        place = namespace + '/' + name
+        if rospy.has_param(place):
+            rospy.delete_param(place)
         if parameters:
-            rospy.set_param('/' + name, parameters)
+            rospy.set_param(place, parameters)
         program = roslib.packages.find_node(PACKAGE, 'driver_node')[0]
         self._output = tempfile.TemporaryFile(mode='w+')
-        self._process = subprocess.Popen([program, '__name:=' + name], stdout=self._output, stderr=subprocess.STDOUT)
+        command = [program, '__name:=' + name, '__ns:=' + (namespace or '/')]
+        self._process = subprocess.Popen(command, stdout=self._output, stderr=subprocess.STDOUT)
 
     def send(self, number):
         self._process.send_signal(number)
@@ -65,6 +68,17 @@ class Process:
         if self.running():
             self._process.kill()
             self._process.wait()
+
+
+class InANamespace(unittest.TestCase):
+    def test_joint_states_are_in_the_namespace_of_the_node(self):
+        process = Process('arm', configuration(), '/left')
+        try:
+            self.assertEqual(rospy.wait_for_message('/left/joint_states', JointState, PATIENCE).name, JOINTS)
+            self.assertNotIn('/joint_states', [topic for topic, _ in rospy.get_published_topics()])
+        finally:
+            process.send(signal.SIGTERM)
+            self.assertEqual(process.wait(), 0, process.output())
 
 
 class BadConfigurations(unittest.TestCase):

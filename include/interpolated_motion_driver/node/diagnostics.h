@@ -18,7 +18,8 @@ using DiagnosticStatus = diagnostic_updater::DiagnosticStatusWrapper;
 /// `longest_turn`: of the thread that owns the buses.
 void diagnose_group(const motion::Snapshot& snapshot, HostDuration longest_turn, DiagnosticStatus& status);
 /// One drive: ERROR when it is silent or in fault, WARN when its buffer has run dry or it refused records.
-void diagnose_drive(const motion::JointSnapshot& joint, DiagnosticStatus& status);
+/// `bus`: which of them tells what the bits of its statusword mean.
+void diagnose_drive(const motion::JointSnapshot& joint, hardware::BusType bus, DiagnosticStatus& status);
 /// One bus: ERROR with what to do when it cannot be used, WARN when frames were lost on this host or when it
 /// carries more than `max_load` of its bit rate.
 void diagnose_bus(const motion::BusSnapshot& bus, double max_load, DiagnosticStatus& status);
@@ -36,7 +37,7 @@ class Diagnostics {
   void publish();
 
  private:
-  void add_drive(const std::string& joint);
+  void add_drive(const std::string& joint, hardware::BusType bus);
   void add_bus(const hardware::BusConfiguration& bus);
 
   const HardwareThread& hardware_;

@@ -10,7 +10,8 @@
 
 namespace interpolated_motion::node {
 
-/// Publishes `~state` and `/joint_states`, once the drives have told where they are.
+/// Publishes `~state`, and `joint_states` in the namespace that the node is in, once the drives have told
+/// where they are.
 class StatePublisher {
  public:
   /// Advertises; `hardware` must live longer.
