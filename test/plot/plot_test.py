@@ -28,7 +28,7 @@ configuration: {commit_horizon: 0.4, buses: {can0: {type: canopen, bitrate: 5000
 """
 
 
-def joints(time, position, fill=0.3):
+def joints(time, position, fill=0.45):
     return (f"{time:.9f} joint shoulder {position} 0.5 {position - 0.002} 0.5 {position} {fill}\n"
             f"{time:.9f} joint slide {0.1 * position} 0.05 {0.1 * position} 0.05 0 {fill}\n")
 
@@ -129,15 +129,27 @@ def test_a_recording_is_read(write):
     shoulder, slide = session.joints.values()
     assert (shoulder.unit, slide.unit) == ("rad", "m")
     assert (shoulder.deviation_bound, slide.deviation_bound) == (1.0, 3)
-    assert shoulder.desired[:3] == [0.0, 0.0, 0.05]
+    assert shoulder.desired[:3] == [0.0, 0.05, 0.1]  # the second look found nothing new
     assert shoulder.actual[0] == -0.002
-    assert shoulder.buffer[0] == 0.3
+    assert shoulder.buffer[0] == 0.45
     assert (shoulder.worst_deviation, shoulder.final_deviation) == (0.75, 0.25)
     (goal,) = session.goals
     assert (goal.number, goal.outcome, goal.end) == (4, "succeeded", 103.0)
     assert session.begin_of_motion() == 101.0
     assert session.loads["can0"].limit == 0.5
     assert session.loads["can0"].total()[2] == pytest.approx(1000 * 51 / 500000.0)
+
+
+def test_answers_that_are_repeated_make_no_stairs_in_motion(write):
+    text = HEAD + "".join(f"{100.0 + 0.02 * i:.9f} joint shoulder {0.1 * (i // 5)} 1 {0.1 * (i // 5)} {1 if i < 15 else 0} 0 0\n" for i in range(20))
+    shoulder = inputs.read_all([write("r.txt", text)], RATES).joints["shoulder"]
+    assert shoulder.times == pytest.approx([100.0, 100.1, 100.2, 100.3, 100.32, 100.34, 100.36, 100.38])
+    assert shoulder.actual == pytest.approx([0.0, 0.1, 0.2] + 5 * [0.3])
+    assert len(shoulder.buffer) == 20
+
+
+def test_the_commit_horizon_is_shown_where_buffers_come_to_it(write, svg_of):
+    assert "commit_horizon" not in texts(svg_of(write("r.txt", GOOD.replace(" 0.45\n", " 0.02\n"))))
 
 
 def test_recordings_without_buffers_are_read(write, svg_of):

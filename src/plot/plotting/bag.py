@@ -36,11 +36,9 @@ def read(path, session, _rates):
 def read_state(session, message, time):
     for i, name in enumerate(message.joint_names):
         joint = session.joints.setdefault(name, Joint())
-        joint.times.append(time)
-        joint.desired.append(message.desired.positions[i])
-        joint.desired_velocity.append(message.desired.velocities[i] if message.desired.velocities else 0.0)
-        joint.actual.append(message.actual.positions[i])
-        joint.actual_velocity.append(message.actual.velocities[i] if message.actual.velocities else 0.0)
+        desired, actual = message.desired, message.actual
+        joint.note_motion(time, desired.positions[i], desired.velocities[i] if desired.velocities else 0.0, actual.positions[i],
+                          actual.velocities[i] if actual.velocities else 0.0)
 
 
 def read_buffers(session, message, time):

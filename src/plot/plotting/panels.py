@@ -62,7 +62,8 @@ def buffer(axes, session, view):
     for name in view.joints:
         joint = session.joints[name]
         trace(axes, view, joint, name, joint.buffer_times, joint.buffer, styles=(ACTUAL,))
-    if session.horizon and view.what == "motion" and not session.setpoints:
+    most = max((fill for name in view.joints for fill in session.joints[name].buffer), default=0.0)
+    if session.horizon and view.what == "motion" and most >= session.horizon:  # not in streams, nor of cyclic drives
         rule(axes, session.horizon, "commit_horizon")
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel("motion in\nbuffer  s")

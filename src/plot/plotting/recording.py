@@ -67,11 +67,7 @@ class Reader:
         name, *numbers = text.split()
         desired, desired_velocity, actual, actual_velocity, _ = map(float, numbers[:5])
         joint = self.session.joints[name]
-        joint.times.append(time)
-        joint.desired.append(desired)
-        joint.desired_velocity.append(desired_velocity)
-        joint.actual.append(actual)
-        joint.actual_velocity.append(actual_velocity)
+        joint.note_motion(time, desired, desired_velocity, actual, actual_velocity)
         if len(numbers) > 5:
             joint.buffer_times.append(time)
             joint.buffer.append(float(numbers[5]))

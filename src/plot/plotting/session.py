@@ -1,6 +1,8 @@
 """What the files tell of one motion, whatever kind of file it comes from. Times are s on one clock, that of the file."""
 from dataclasses import dataclass, field
 
+STANDSTILL = 1e-3  # rad/s or m/s
+
 
 @dataclass
 class Joint:
@@ -17,6 +19,19 @@ class Joint:
     deviation_bound: float = None                # counts
     worst_deviation: float = None                # counts; None: no report
     final_deviation: float = None
+    latest: tuple = None
+
+    def note_motion(self, time, desired, desired_velocity, actual, actual_velocity):
+        """What a drive that is asked now and then has said before is no news while it moves: between two answers there is a line, no stair."""
+        now = (desired, desired_velocity, actual, actual_velocity)
+        if self.times and abs(actual_velocity) > STANDSTILL and now == self.latest:
+            return
+        self.latest = now
+        self.times.append(time)
+        self.desired.append(desired)
+        self.desired_velocity.append(desired_velocity)
+        self.actual.append(actual)
+        self.actual_velocity.append(actual_velocity)
 
     def note_state(self, time, state):
         if not self.states or self.states[-1][1] != state:
@@ -80,7 +95,7 @@ class Session:
     def end_of_motion(self):
         ends = [goal.end for goal in self.goals if goal.end is not None]
         for joint in self.joints.values():
-            ends += [time for time, velocity in zip(joint.times, joint.actual_velocity) if abs(velocity) > 1e-3][-1:]
+            ends += [time for time, velocity in zip(joint.times, joint.actual_velocity) if abs(velocity) > STANDSTILL][-1:]
         return max(ends, default=None)
 
     def span(self):
