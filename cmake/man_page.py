@@ -9,6 +9,7 @@ import sys
 PURPOSE = {"driver_node": "moves servo drives that interpolate by themselves along ROS trajectories",
            "trajectory_client": "sends a trajectory, or a stream of setpoints, to the driver",
            "emulated_drives": "servo drives for any master, on a CAN interface or a pseudo-terminal",
+           "drive_tool": "sees and sets the drives of a bus, without ROS",
            "plot": "pictures of a motion, from recordings, bags, wire logs and reports"}
 LAST = "\n".join([".SH SEE ALSO", "README.md and docs/ of the package interpolated_motion_driver.", ""])
 

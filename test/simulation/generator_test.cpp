@@ -78,7 +78,7 @@ TEST(Scripts, HaveEveryVerbEveryKindAndNoFaultInHalfOfThem) {
     if (std::none_of(script.events.begin(), script.events.end(), is_fault)) ++faultless;
   }
   EXPECT_EQ(verbs, (std::set<std::string>{"cancel", "clear", "die", "disable", "enable", "goal", "halt",
-                                          "inject", "late", "reset", "stop", "stream"}));
+                                          "inject", "late", "reset", "speed", "stop", "stream"}));
   EXPECT_EQ(kinds, (std::set<std::string>{"cyclic", "epos_ipm", "silverlode_ims"}));
   EXPECT_GT(faultless, 170);
   EXPECT_LT(faultless, 290);

@@ -355,8 +355,10 @@ TEST_F(WrongThing, DesiredPositionThatJumpsAfterAnAbsence) {
   snapshot.joints[0].desired.position = 1.0;  // at 3.5 rad/s, in the 0.3 s of absence
   look(kBack + 0.005);
   EXPECT_EQ(violated(), Names{});
-  snapshot.joints[0].desired.position = 1.5;
-  look(kBack + 0.01);
+  snapshot.joints[0].desired.position = 1.1;
+  look(kBack + 0.1);  // by then all reports of the absence have come
+  snapshot.joints[0].desired.position = 2.5;
+  look(kBack + 0.11);
   EXPECT_EQ(violated(), Names{"desired is smooth"});
 }
 
