@@ -67,7 +67,8 @@ HostTime GoalDesk::next_deadline() const { return current_ ? current_->done : kN
 
 /// False when there is nothing to begin.
 bool GoalDesk::begin_next(HostTime now) {
-  if (auto planning = group_.take_planning(allowance_for_own(), now)) {
+  auto planning = group_.may_plan() ? group_.take_planning(allowance_for_own(), now) : nullptr;
+  if (planning) {
     current_ = Submission{};
     current_->planning = std::move(planning);
     run(now);

@@ -181,7 +181,7 @@ std::vector<trajectory::Path> Planning::executed() const {
 trajectory::Path Planning::executed_from_rest(std::size_t joint) const {
   const trajectory::Path& nominal = course.nominal[joint];
   if (goal) return trajectory::retimed(nominal, course.law, kFromItsBegin);
-  const trajectory::Path path = trajectory::retimed(nominal, course.law, GoalTime{0.0});
+  trajectory::Path path = trajectory::retimed(nominal, course.law, GoalTime{0.0});
   if (plan.lead_in == GoalTime{0.0}) return path;
   const double begin = nominal.sample(motion.reached).position;
   const double from = std::abs(begin - present[joint].position) > rules.lead_in_threshold[joint]

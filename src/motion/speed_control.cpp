@@ -19,8 +19,7 @@ std::optional<Refusal> SpeedControl::take(const SpeedOrder& order) {
   return std::nullopt;
 }
 
-std::optional<std::string> SpeedControl::take_note() {
-  if (notes_.empty()) return std::nullopt;
+std::string SpeedControl::take_oldest() {
   std::string note = std::move(notes_.front());
   notes_.pop_front();
   return note;

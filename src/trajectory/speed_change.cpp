@@ -175,7 +175,7 @@ double highest_rate(const std::vector<Path>& nominal, GoalTime from, const std::
   return std::max(1.0, highest);
 }
 
-Expected<TimeLaw, SpeedViolation> speed_changed(TimeLaw law, GoalTime from, const Speed& speed,
+Expected<TimeLaw, SpeedViolation> speed_changed(const TimeLaw& law, GoalTime from, const Speed& speed,
                                                 const std::vector<Path>& nominal,
                                                 const std::vector<JointLimits>& limits) {
   Speed allowed = speed;

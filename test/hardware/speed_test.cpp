@@ -96,10 +96,10 @@ class Speed : public ::testing::TestWithParam<std::tuple<KindOfArm, int>> {
   /// All joints have gone the same part of their ways, but for so many rad: of joint1's way.
   double off_the_way() {
     const auto now = scenario.positions();
-    const double part = 1.0 - (target[0] - now[0]) / distance;
+    const double part = 1.0 - (target[0] - now[0]) / kDistance;
     double most = 0.0;
     for (std::size_t i = 0; i < now.size(); ++i) {
-      const double whole = distance * (1.0 - 0.1 * static_cast<double>(i));
+      const double whole = kDistance * (1.0 - 0.1 * static_cast<double>(i));
       most = std::max(most, std::abs(now[i] - (target[i] - (1.0 - part) * whole)));
     }
     return most;
@@ -120,7 +120,7 @@ class Speed : public ::testing::TestWithParam<std::tuple<KindOfArm, int>> {
       EXPECT_LE(joint.worst_deviation, kBound) << joint.joint;
   }
 
-  static constexpr double distance = 1.2;  // rad
+  static constexpr double kDistance = 1.2;  // rad
   Scenario scenario;
   std::vector<double> counts;  ///< rad in one, of each joint
   std::vector<Watch> watches = std::vector<Watch>(6);
@@ -129,7 +129,7 @@ class Speed : public ::testing::TestWithParam<std::tuple<KindOfArm, int>> {
 };
 
 TEST_P(Speed, IsPausedOnTheWayAndResumed) {
-  begin(move(distance, 3.0));
+  begin(move(kDistance, 3.0));
   scenario.run(1.2);
   const HostTime asked = scenario.now();
   order(kPause);
@@ -148,7 +148,7 @@ TEST_P(Speed, IsPausedOnTheWayAndResumed) {
 }
 
 TEST_P(Speed, IsResumedBeforeTheDrivesHaveLeft) {
-  begin(move(distance, 3.0));
+  begin(move(kDistance, 3.0));
   scenario.run(1.2);
   order(kPause);
   ASSERT_TRUE(scenario.run_until([&] { return scenario.snapshot().speed.rate == 0.0; }, 3.0));
@@ -162,7 +162,7 @@ TEST_P(Speed, IsOverriddenInMotion) {
   for (const double rate : {0.1, 0.5, 2.0}) {
     counts.clear();
     order(at(1.0));
-    begin(move(rate < 1.0 ? distance : -distance, 3.0));
+    begin(move(rate < 1.0 ? kDistance : -kDistance, 3.0));
     scenario.run(0.8);
     order(at(rate));
     ASSERT_TRUE(scenario.run_until([&] { return scenario.snapshot().speed.rate == rate; }, 3.0)) << rate;
@@ -180,7 +180,7 @@ TEST_P(Speed, IsOverriddenInMotion) {
 
 TEST_P(Speed, HoldsForGoalsFromRest) {
   order(at(0.5));
-  const auto accepted = submit(move(distance, 1.5));
+  const auto accepted = submit(move(kDistance, 1.5));
   ASSERT_TRUE(accepted) << accepted.error().text;
   EXPECT_NEAR(accepted.value().duration.count(), 3.0, 0.1);
   id = accepted.value().id;
@@ -195,14 +195,14 @@ TEST_P(Speed, HoldsForGoalsFromRest) {
 TEST_P(Speed, IsNoMoreThanTheLimitsAllow) {
   order(at(2.0));
   // A quintic's fastest is 15/8 of its mean: at rate 1 two thirds of the velocity limit.
-  begin(move(distance, 1.875 * distance / (0.67 * kMaxVelocity)));
+  begin(move(kDistance, 1.875 * kDistance / (0.67 * kMaxVelocity)));
   expect_success();
   expect_limits_kept();
 }
 
 TEST_P(Speed, LetsNoGoalBeginWhilePaused) {
   order(kPause);
-  const auto accepted = submit(move(distance, 2.0));
+  const auto accepted = submit(move(kDistance, 2.0));
   ASSERT_TRUE(accepted) << accepted.error().text;
   ASSERT_EQ(accepted.value().warnings.size(), 1u);
   EXPECT_NE(accepted.value().warnings[0].find("~resume"), std::string::npos);
@@ -215,7 +215,7 @@ TEST_P(Speed, LetsNoGoalBeginWhilePaused) {
 }
 
 TEST_P(Speed, IsZeroWhenTheOverrideIs) {
-  begin(move(distance, 2.0));
+  begin(move(kDistance, 2.0));
   scenario.run(0.7);
   order(at(0.0));
   ASSERT_TRUE(scenario.run_until_state(GroupState::Idle, 5.0));
@@ -230,11 +230,11 @@ TEST_P(Speed, IsZeroWhenTheOverrideIs) {
 TEST_P(Speed, LetsAPausedGoalBeReplaced) {
   for (const double after : {0.05, 0.6, 3.0}) {
     counts.clear();
-    begin(move(distance, 2.0));
+    begin(move(kDistance, 2.0));
     scenario.run(0.7);
     order(kPause);
     scenario.run(after);
-    const auto next = submit(move(-0.5 * distance, 2.0));
+    const auto next = submit(move(-0.5 * kDistance, 2.0));
     ASSERT_TRUE(next) << next.error().text;
     EXPECT_EQ(scenario.result_of(id, 3.0).outcome, GoalOutcome::Preempted);
     id = next.value().id;
@@ -251,7 +251,7 @@ TEST_P(Speed, LetsAPausedGoalBeEnded) {
   for (const bool halt : {false, true}) {
     counts.clear();
     order(kResume);
-    begin(move(distance, 2.0));
+    begin(move(kDistance, 2.0));
     scenario.run(0.7);
     order(kPause);
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle, 5.0));
@@ -329,7 +329,7 @@ class StopOnPath : public Speed {
 TEST_P(StopOnPath, ComesToRestOnTheWay) {
   for (const bool by_cancel : {true, false}) {
     counts.clear();
-    begin(move(distance, 3.0));
+    begin(move(kDistance, 3.0));
     scenario.run(1.2);
     const HostTime asked = scenario.now();
     motion::GoalId stop = 0;
@@ -356,7 +356,7 @@ TEST_P(StopOnPath, ComesToRestOnTheWay) {
     ASSERT_TRUE(scenario.run_until_state(GroupState::Idle));
   }
   counts.clear();
-  begin(move(-distance, 2.0));
+  begin(move(-kDistance, 2.0));
   expect_success();
 }
 

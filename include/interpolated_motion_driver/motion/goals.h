@@ -35,6 +35,7 @@ class Goals {
   void drop_planning() { holding_ = false; }
   Planning::Premises premises() const;
   PlanningPtr take_planning(GoalTime allowance, HostTime now);
+  bool may_plan() const { return pending_.has_value() || execution_.active().has_value(); }
   bool end_own(Planning& planning, HostTime now);
   void cancel(GoalId goal, HostTime now);
   std::optional<GoalResult> take_result() { return outcomes_.take(); }

@@ -67,6 +67,8 @@ class Group {
   /// What the group itself has to plan, to be given to end_own(): a goal that has waited for rest, or another
   /// speed. Null while there is nothing. `allowance` as for begin().
   PlanningPtr take_planning(GoalTime allowance, HostTime now) { return goals_.take_planning(allowance, now); }
+  /// Without it there is nothing to take.
+  bool may_plan() const { return goals_.may_plan(); }
   /// False if it does not fit any more: then take_planning() gives it anew.
   bool end_own(Planning& planning, HostTime now) { return goals_.end_own(planning, now); }
   /// Stops the goal if it is still under way; it ends as Preempted. Nothing happens for any other id.

@@ -35,9 +35,14 @@ class SpeedControl {
 
   /// A sentence for the log, on what has become of an order.
   void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
-  std::optional<std::string> take_note();
+  std::optional<std::string> take_note() {
+    if (notes_.empty()) return std::nullopt;
+    return take_oldest();
+  }
 
  private:
+  std::string take_oldest();
+
   GoalTime ramp_;
   double override_ = 1.0;
   bool paused_ = false;

@@ -35,7 +35,7 @@ struct SpeedViolation {
 /// slope but where the limits ask for one; where a joint has no acceleration left for the change, as one that
 /// brakes with all it has, the change waits. Nothing of the motion is left: at once. Fails where no such ramp
 /// keeps the limits, with the first violation.
-Expected<TimeLaw, SpeedViolation> speed_changed(TimeLaw law, GoalTime from, const Speed& speed,
+Expected<TimeLaw, SpeedViolation> speed_changed(const TimeLaw& law, GoalTime from, const Speed& speed,
                                                 const std::vector<Path>& nominal,
                                                 const std::vector<JointLimits>& limits);
 
