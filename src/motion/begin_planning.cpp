@@ -93,11 +93,12 @@ PlanningPtr planning_of_speed(const Axes& axes, const trajectory::GoalRules& rul
 }
 
 PlanningPtr planning_to_resume(const Axes& axes, const trajectory::GoalRules& rules,
-                               const trajectory::Speed& speed, const TimedPaths& paused, GoalTime end,
-                               HostTime now) {
+                               const trajectory::Speed& speed, const ActiveGoal& paused, HostTime now) {
   PlanningPtr planning = planning_of(nullptr, rules, speed, now);
+  const trajectory::TimeLaw& law = paused.course.law;
   planning->present = rest_states(axes);
-  planning->motion = {paused.nominal, paused.law.at(paused.law.steady_from()).nominal, end};
+  planning->motion = {paused.course.nominal, law.at(law.steady_from()).nominal, paused.end,
+                      paused.zero - paused.lead_in};
   begin_from_rest(*planning, axes);
   return planning;
 }

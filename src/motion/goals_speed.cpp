@@ -26,7 +26,8 @@ std::optional<Refusal> Goals::order_speed(const SpeedOrder& order, HostTime now)
 PlanningPtr Goals::begin_speed_wanted(GoalTime allowance, HostTime now) {
   const auto& active = execution_.active();
   const bool is_due = active && !active->ending && active->speeds != speed_.orders();
-  return is_due ? begin_speed(speed_.wanted(), allowance, now) : nullptr;
+  if (!is_due || (drives_.state() == GroupState::Moving && refused_ == speed_.orders())) return nullptr;
+  return begin_speed(speed_.wanted(), allowance, now);
 }
 
 /// The active goal at another speed; null while that cannot be, or need not.
@@ -34,7 +35,7 @@ PlanningPtr Goals::begin_speed(const trajectory::Speed& speed, GoalTime allowanc
   const ActiveGoal& active = *execution_.active();
   PlanningPtr planning;
   if (drives_.state() == GroupState::Idle && speed.rate > 0.0) {
-    planning = planning_to_resume(drives_.axes(), parameters_.rules, speed, active.course, active.end, now);
+    planning = planning_to_resume(drives_.axes(), parameters_.rules, speed, active, now);
   } else if (drives_.state() == GroupState::Moving) {
     if (allowance > GoalTime{0.0} && execution_.changeable_from()) hold(allowance);
     const auto until = execution_.changeable_from();
@@ -52,8 +53,7 @@ PlanningPtr Goals::begin_speed(const trajectory::Speed& speed, GoalTime allowanc
 }
 
 void Goals::take_speed(Planning& planning, HostTime now) {
-  execution_.stay(planning);
-  if (planning.refusal) return refuse_speed(*planning.refusal);
+  if (planning.refusal) return refuse_speed(planning);
   const double rate = planning.course.law.final_rate();
   if (rate < planning.speed.rate - kRounding) {
     speed_.note(
@@ -63,10 +63,17 @@ void Goals::take_speed(Planning& planning, HostTime now) {
   execution_.go_on(planning, now);
 }
 
-/// A goal that is paused, and cannot go on from where it stands, is over.
-void Goals::refuse_speed(const Refusal& refusal) {
-  if (drives_.state() != GroupState::Idle) return speed_.note(refusal.text + " The goal goes on as it did.");
-  execution_.finish({GoalOutcome::Aborted, {refusal.code, "The goal cannot go on: " + refusal.text}});
+/// A goal that cannot go on from where it stands is over. One that comes to stand goes on from there.
+void Goals::refuse_speed(const Planning& planning) {
+  const Refusal& refusal = *planning.refusal;
+  if (drives_.state() == GroupState::Idle) {
+    return execution_.finish(
+        {GoalOutcome::Aborted, {refusal.code, "The goal cannot go on: " + refusal.text}});
+  }
+  refused_ = planning.premises.speeds;
+  if (drives_.course().law().final_rate() == 0.0) return;
+  execution_.stay(planning);
+  speed_.note(refusal.text + " The goal goes on as it did.");
 }
 
 /// False where that is not wished for, or cannot be: nothing has changed then.

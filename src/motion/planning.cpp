@@ -21,6 +21,9 @@ namespace {
 constexpr GoalTime kFromItsBegin{-std::numeric_limits<double>::infinity()};
 /// Drives that do not follow a change of speed are asked again with twice the ramp, until it is so long.
 constexpr GoalTime kLongestRamp{5.0};
+/// A multiple of all drives' sampling periods.
+constexpr GoalTime kSamples{0.1};
+constexpr double kRounding = 1e-9;
 /// Part of a joint's limits at which a paused joint is brought back to its path.
 constexpr double kReturnShare = 0.5;
 
@@ -101,8 +104,19 @@ std::optional<Refusal> Planning::plan_resume() {
     plan.lead_in = std::max({plan.lead_in, way, trajectory::kShortestMotion});
   }
   plan.lead_in = GoalTime{1e-3 * std::ceil(1e3 * plan.lead_in.count())};  // samples of the drives
-  if (auto refused = encode_at_speed(GoalTime{0.0})) return refused;
+  if (auto refused = encode_at_speed(wait_for_samples())) return refused;
   return refuse_beyond_buses(*this, GoalTime{0.0} - plan.lead_in);
+}
+
+/// How long the joints stand still on, so that at the full speed the drives come to the path at the instants
+/// of their samples as they would have without the pause: what was certified then holds again.
+GoalTime Planning::wait_for_samples() {
+  if (speed.rate != 1.0) return GoalTime{0.0};
+  const auto law = trajectory::speed_changed(course.law, GoalTime{0.0}, speed, course.nominal, rules.limits);
+  if (!law) return GoalTime{0.0};
+  const GoalTime steady = law.value().steady_from();
+  const GoalTime later = steady + plan.lead_in - (law.value().at(steady).nominal - motion.begin);
+  return kSamples * std::ceil(later / kSamples - kRounding) - later;
 }
 
 // In motion.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "interpolated_motion_driver/motion/active_goal.h"
 #include "interpolated_motion_driver/motion/axes.h"
 #include "interpolated_motion_driver/motion/course.h"
 #include "interpolated_motion_driver/motion/planning.h"
@@ -30,10 +31,9 @@ PlanningPtr planning_of_speed(const Axes& axes, const trajectory::GoalRules& rul
                               const trajectory::Speed& speed, const Course& course, GoalTime until,
                               GoalTime end, GoalTime linger, HostTime now);
 
-/// A motion that was to go on as `paused`, until nominal time `end`, from where the axes rest now.
+/// The motion of a goal that is paused, from where the axes rest now.
 PlanningPtr planning_to_resume(const Axes& axes, const trajectory::GoalRules& rules,
-                               const trajectory::Speed& speed, const TimedPaths& paused, GoalTime end,
-                               HostTime now);
+                               const trajectory::Speed& speed, const ActiveGoal& paused, HostTime now);
 
 /// Where the joint of that number is at the first point of `goal`, or at the limit that this is beyond;
 /// `otherwise` where the goal does not say.

@@ -79,7 +79,7 @@ class Goals {
   GoalAcceptance accept_stop(HostTime now);
   void end_waiting(Planning& planning, HostTime now);
   void take_speed(Planning& planning, HostTime now);
-  void refuse_speed(const Refusal& refusal);
+  void refuse_speed(const Planning& planning);
 
   void end_active(const Ending& ending, HostTime now);
   bool stop_on_path(const Ending& ending, HostTime now);
@@ -93,6 +93,7 @@ class Goals {
   Planning::Premises premises_;  ///< orders so far
   bool holding_ = false;         ///< while planning, for a goal that is to join
   std::optional<PendingGoal> pending_;
+  std::optional<std::uint64_t> refused_;  ///< the order of a speed that was not possible in motion
 };
 
 }  // namespace interpolated_motion::motion

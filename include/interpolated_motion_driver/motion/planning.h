@@ -58,6 +58,7 @@ class Planning {
     std::vector<trajectory::Path> nominal;
     GoalTime reached{0.0};  ///< nominal time, of a motion that has been paused and begins from rest
     GoalTime end{0.0};      ///< nominal time at which all joints stand
+    GoalTime begin{0.0};    ///< nominal time at which the drives have set out, of a motion from rest
   };
 
   /// What was so when planning began: what is found later fits if it still is.
@@ -104,6 +105,7 @@ class Planning {
   bool try_later();
   std::vector<trajectory::Path> nominal_with_goal(GoalTime join) const;
   std::vector<trajectory::Path> executed() const;
+  GoalTime wait_for_samples();
   trajectory::Path executed_from_rest(std::size_t joint) const;
   trajectory::Path executed_behind_join(std::size_t joint) const;
 };
