@@ -8,54 +8,10 @@
 #include "interpolated_motion_driver/axis/cyclic/setpoint_stream.h"
 #include "interpolated_motion_driver/trajectory/path.h"
 
+#include "axis/cyclic/setpoint_stream_fixture.h"
+
 namespace interpolated_motion::axis {
 namespace {
-
-using std::chrono::milliseconds;
-
-constexpr double kCounts = 1000.0;  // per rad
-constexpr double kMaxAcceleration = 10.0;
-
-encoding::SetpointEncoding encoding_of(double counts) {
-  encoding::SetpointEncoding encoding;
-  encoding.transmission.counts_per_revolution = counts * 2.0 * 3.14159265358979324;
-  return encoding;
-}
-
-HostTime at(int ms) { return HostTime{milliseconds(ms)}; }
-
-/// From `from` at constant `velocity` for `duration` s: not to be played, but easy to reckon with.
-trajectory::Path ramp(double from, double velocity, double duration) {
-  trajectory::Polynomial polynomial;
-  polynomial.coefficients = {from, velocity};
-  return trajectory::Path({{GoalTime{0.0}, GoalTime{duration}, polynomial}});
-}
-
-trajectory::JointLimits limits() {
-  trajectory::JointLimits limits;
-  limits.min_position = -10.0;
-  limits.max_position = 10.0;
-  limits.max_velocity = 2.5;
-  limits.max_acceleration = kMaxAcceleration;
-  return limits;
-}
-
-class SetpointStreamTest : public testing::Test {
- protected:
-  /// What the targets of the SYNCs in [from, to) ms are.
-  void play(int from, int to) {
-    for (int sync = from; sync < to; sync += 10) targets.push_back(*stream.next(at(sync)));
-  }
-  void expect_within_acceleration(double limit) const {
-    for (std::size_t i = 2; i < targets.size(); ++i) {
-      const double acceleration = (targets[i] - 2.0 * targets[i - 1] + targets[i - 2]) / (kCounts * 1e-4);
-      EXPECT_LE(std::abs(acceleration), limit + 2.0 / (kCounts * 1e-4)) << i;
-    }
-  }
-
-  SetpointStream stream{encoding_of(kCounts), limits()};
-  std::vector<double> targets;
-};
 
 TEST_F(SetpointStreamTest, RestsWhereItIsTold) {
   stream.rest(-7);
@@ -384,56 +340,6 @@ TEST_F(SetpointStreamTest, TheWayBackIsWithinTheLimitAsTheDriveExecutesIt) {
         << left_out;
     EXPECT_NEAR(played.back().position, kReach, 1e-7) << left_out;
   }
-}
-
-// At 2 rad/s: 20 counts a period. Whether it has got the last two target positions is not known, nor whether
-// it would get the next ones: nothing becomes of a stop before it is heard of.
-TEST_F(SetpointStreamTest, ADriveThatIsNotHeardOfIsSentWhereItGoesByItself) {
-  stream.follow(ramp(0.0, 2.0, 2.0), at(900));
-  play(950, 1050);
-  EXPECT_EQ(*stream.next(at(1050), false), 2 * (1060 - 900));
-  stream.brake();
-  EXPECT_EQ(*stream.next(at(1060), false), 2 * (1070 - 900));
-  EXPECT_EQ(*stream.next(at(1070), false), 2 * (1080 - 900));
-  targets.clear();
-  play(1080, 1600);
-  EXPECT_EQ(targets.front(), 2 * (1090 - 900));
-  EXPECT_EQ(targets.back(), targets[targets.size() - 10]);
-  expect_within_acceleration(kMaxAcceleration);
-}
-
-// The path bends off at 4 rad/s^2; a drive that interpolates on lines goes straight on. Known to it are 130
-// and 147 counts, at 1070 and 1080 ms.
-TEST_F(SetpointStreamTest, ADriveThatIsHeardOfAgainIsLedBackFromWhereItWent) {
-  encoding::SetpointEncoding encoding = encoding_of(kCounts);
-  encoding.order = 1;
-  SetpointStream on_lines(encoding, limits());
-  trajectory::Polynomial bent;
-  bent.coefficients = {0.0, 2.0, -2.0};
-  on_lines.follow(trajectory::Path({{GoalTime{0.0}, GoalTime{0.5}, bent}}), at(1000));
-  for (int sync = 1000; sync < 1100; sync += 10) on_lines.next(at(sync));
-  EXPECT_EQ(*on_lines.next(at(1100), false), 147 + 3 * 17);
-  EXPECT_EQ(*on_lines.next(at(1110), false), 147 + 4 * 17);
-  const std::int32_t first = *on_lines.next(at(1120), true);
-  EXPECT_EQ(first, 147 + 5 * 17);
-  const auto detour = on_lines.take_detour();
-  ASSERT_TRUE(detour);
-  EXPECT_GE(detour->counts, 147 + 5 * 17 - 1000.0 * (2.0 * 0.13 - 2.0 * 0.13 * 0.13) - 1.0);
-  EXPECT_FALSE(on_lines.is_led());
-}
-
-// A drive that hears, and cannot be heard, is not to be led astray.
-TEST_F(SetpointStreamTest, FiveTimesAtMost) {
-  stream.follow(ramp(0.0, 2.0, 2.0), at(900));
-  play(1000, 1050);
-  for (int sync = 1050; sync < 1200; sync += 10) stream.next(at(sync), false);
-  EXPECT_TRUE(stream.is_led());
-}
-
-TEST_F(SetpointStreamTest, AtRestItDoesNotMatterWhetherADriveIsHeard) {
-  stream.rest(5);
-  for (int sync = 1000; sync < 1100; sync += 10) EXPECT_EQ(*stream.next(at(sync), false), 5);
-  EXPECT_EQ(stream.missed(), 0U);
 }
 
 }  // namespace
